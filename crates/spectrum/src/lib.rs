@@ -1,1 +1,17 @@
-//! placeholder
+//! Curves on wavelength, and the observer who looks at them.
+//!
+//! The first room: everything that depends on wavelength (a lamp, a reflectance, n, k, a matching function)
+//! is a [`Curve`]; [`Observer`] holds the CIE matching functions; [`SpectralRange`] says over which wavelengths a
+//! computation runs. Wavelengths are in nm. Nothing is clamped and nothing is extrapolated without being asked.
+
+mod blackbody;
+mod curve;
+mod daylight;
+mod observer;
+mod range;
+
+pub use blackbody::planck;
+pub use curve::{Curve, CurveError, Outside};
+pub use daylight::{daylight, daylight_chromaticity};
+pub use observer::{LUMINOUS_EFFICACY, Observer};
+pub use range::SpectralRange;
