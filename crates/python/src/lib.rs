@@ -1,9 +1,21 @@
 //! The bindings: what Python calls `illuminant._core`.
+//!
+//! Conversion only: one thin file per room, no physics and no defaults of their own. Numbers cross as NumPy
+//! arrays of f64, descriptions as JSON, and long calls let go of the interpreter.
+
+mod arrays;
+mod color;
+mod spectrum;
+mod toml;
+
 use pyo3::prelude::*;
 
 /// The compiled core of illuminant.
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    toml::register(m)?;
+    spectrum::register(m)?;
+    color::register(m)?;
     Ok(())
 }
