@@ -5,6 +5,7 @@
 
 mod arrays;
 mod color;
+mod display;
 mod spectrum;
 mod toml;
 
@@ -17,5 +18,6 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     toml::register(m)?;
     spectrum::register(m)?;
     color::register(m)?;
+    display::register(m)?;
     Ok(())
 }
