@@ -1,0 +1,156 @@
+//! Fresnel's equations (book 2.2.5, eqs 2.13–2.15; exact for conductors where the book approximates).
+//!
+//! [`amplitudes`] gives the complex amplitude ratios of any boundary; [`dielectric`] and [`conductor`] are the
+//! unpolarised reflectances in real arithmetic, fast enough to run in every lane.
+//!
+//! Sign convention: at normal incidence both ratios of a denser dielectric are (1 − n)/(1 + n), that is, E∥ is
+//! counted in the frame in which r∥ = r⊥ there; time dependence exp(−iωt), index n + ik with k ≥ 0 absorbing.
+
+use crate::Real;
+use num_complex::Complex;
+
+/// Complex amplitude ratios of the reflected and transmitted fields.
+#[derive(Clone, Copy, Debug)]
+pub struct Amplitudes<R> {
+    /// Reflected, electric field in the plane of incidence (∥).
+    pub r_parallel: Complex<R>,
+    /// Reflected, electric field perpendicular to it (⊥).
+    pub r_perpendicular: Complex<R>,
+    /// Transmitted, ∥.
+    pub t_parallel: Complex<R>,
+    /// Transmitted, ⊥.
+    pub t_perpendicular: Complex<R>,
+}
+
+impl<R: Real> Amplitudes<R> {
+    /// The reflectance of unpolarised light, (|r∥|² + |r⊥|²)/2 (book eq 2.15).
+    #[must_use]
+    pub fn reflectance(&self) -> R {
+        (self.r_parallel.norm_sqr() + self.r_perpendicular.norm_sqr()) / R::of(2.0)
+    }
+}
+
+/// The amplitude ratios at a boundary, for the cosine of the angle of incidence in [0, 1] and the relative index
+/// `eta` = (n_t + i k_t) / n_i of the far side (Born and Wolf, 1.5.2 and 14.2). Beyond the critical angle the
+/// transmitted cosine is imaginary and |r| = 1.
+///
+/// ```
+/// use illuminant_optics::fresnel::amplitudes;
+/// use num_complex::Complex;
+/// let glass = amplitudes(1.0f64, Complex::new(1.5, 0.0));
+/// assert!((glass.reflectance() - 0.04).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn amplitudes<R: Real>(cos_i: R, eta: Complex<R>) -> Amplitudes<R> {
+    let one = Complex::new(R::one(), R::zero());
+    let cos_i = Complex::new(cos_i, R::zero());
+    let sin2_i = one - cos_i * cos_i;
+    // The root in the upper half plane decays away from the boundary.
+    let mut cos_t = (one - sin2_i / (eta * eta)).sqrt();
+    if (eta * cos_t).im < R::zero() {
+        cos_t = -cos_t;
+    }
+    let two_cos = cos_i + cos_i;
+    Amplitudes {
+        r_parallel: (cos_t - eta * cos_i) / (cos_t + eta * cos_i),
+        r_perpendicular: (cos_i - eta * cos_t) / (cos_i + eta * cos_t),
+        t_parallel: two_cos / (cos_t + eta * cos_i),
+        t_perpendicular: two_cos / (cos_i + eta * cos_t),
+    }
+}
+
+/// The reflectance of a dielectric boundary for unpolarised light; 1 beyond the critical angle.
+///
+/// `cos_i` in [0, 1]; `eta` = n_t / n_i (book eqs 2.13–2.15).
+#[inline(always)]
+#[must_use]
+pub fn dielectric<R: Real>(cos_i: R, eta: R) -> R {
+    let one = R::one();
+    let cos2_t = one - (one - cos_i * cos_i) / (eta * eta);
+    // Written without a branch so that a loop over lanes stays one: at and beyond the critical angle both
+    // ratios below are ±1 with cos_t = 0.
+    let cos_t = cos2_t.max(R::zero()).sqrt();
+    let parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    let perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    let reflectance = (parallel * parallel + perpendicular * perpendicular) / R::of(2.0);
+    if cos_i <= R::zero() { one } else { reflectance }
+}
+
+/// The reflectance of a conductor for unpolarised light, exact for a complex index (real arithmetic; book eqs 2.16 and
+/// 2.17 approximate it for n² + k² ≫ 1).
+///
+/// `cos_i` in [0, 1]; `n` and `k` relative to the medium in front.
+///
+/// ```
+/// use illuminant_optics::fresnel::conductor;
+/// // The book's copper at 589 nm: ((n−1)² + k²)/((n+1)² + k²) at normal incidence.
+/// let (n, k) = (0.617f64, 2.63);
+/// let normal = ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k);
+/// assert!((conductor(1.0, n, k) - normal).abs() < 1e-12);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn conductor<R: Real>(cos_i: R, n: R, k: R) -> R {
+    let (one, two) = (R::one(), R::of(2.0));
+    let cos2 = cos_i * cos_i;
+    let sin2 = one - cos2;
+    let (n2, k2) = (n * n, k * k);
+    // a² − b² = n² − k² − sin²θ, 2ab = 2nk.
+    let difference = n2 - k2 - sin2;
+    let a2_plus_b2 = (difference * difference + R::of(4.0) * n2 * k2).sqrt();
+    let a = ((a2_plus_b2 + difference) / two).max(R::zero()).sqrt();
+    let perpendicular = (a2_plus_b2 - two * a * cos_i + cos2) / (a2_plus_b2 + two * a * cos_i + cos2);
+    let t1 = cos2 * a2_plus_b2 + sin2 * sin2;
+    let t2 = two * a * cos_i * sin2;
+    let parallel = perpendicular * (t1 - t2) / (t1 + t2);
+    // At grazing incidence on n = 1, k = 0 both are 0/0; there the boundary is none.
+    let reflectance = (perpendicular + parallel) / two;
+    if reflectance.is_nan() { R::zero() } else { reflectance }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn brewster_and_the_critical_angle() {
+        let eta = 1.5f64;
+        let brewster = eta.atan().cos();
+        assert!(amplitudes(brewster, Complex::new(eta, 0.0)).r_parallel.norm() < 1e-12);
+        let beyond = (0.9f64).acos().cos().min((1.0 / eta).asin().cos() * 0.99);
+        let total = amplitudes(beyond, Complex::new(1.0 / eta, 0.0));
+        assert!(
+            (total.r_parallel.norm() - 1.0).abs() < 1e-12
+                && (total.r_perpendicular.norm() - 1.0).abs() < 1e-12
+        );
+        assert_eq!(dielectric(beyond, 1.0 / eta), 1.0);
+        assert_eq!(dielectric(0.0, eta), 1.0);
+    }
+
+    proptest! {
+        #[test]
+        fn real_arithmetic_agrees_with_the_complex(cos in 0.001..1.0f64, n in 0.05..4.0f64, k in 0.0..10.0f64) {
+            let exact = amplitudes(cos, Complex::new(n, k)).reflectance();
+            prop_assert!((conductor(cos, n, k) - exact).abs() < 1e-9);
+            prop_assert!((conductor(cos as f32, n as f32, k as f32) - exact as f32).abs() < 2e-4);
+            let exact = amplitudes(cos, Complex::new(n, 0.0)).reflectance();
+            prop_assert!((dielectric(cos, n) - exact).abs() < 1e-9);
+        }
+
+        #[test]
+        fn a_boundary_reflects_the_same_from_both_sides(cos in 0.001..1.0f64, n in 1.0..3.0f64) {
+            let sin2_t = (1.0 - cos * cos) / (n * n);
+            let cos_t = (1.0 - sin2_t).sqrt();
+            prop_assert!((dielectric(cos, n) - dielectric(cos_t, 1.0 / n)).abs() < 1e-9);
+        }
+
+        #[test]
+        fn energy_is_conserved(cos in 0.001..1.0f64, n in 1.0..3.0f64) {
+            let a = amplitudes(cos, Complex::new(n, 0.0));
+            let cos_t = (1.0 - (1.0 - cos * cos) / (n * n)).sqrt();
+            let through = n * cos_t / cos * (a.t_parallel.norm_sqr() + a.t_perpendicular.norm_sqr()) / 2.0;
+            prop_assert!((a.reflectance() + through - 1.0).abs() < 1e-9);
+        }
+    }
+}
