@@ -1,7 +1,7 @@
 # Every verb of this repository; `make help` lists them.
-# Needed: git, make, Python 3.11 or newer, cargo 1.85 or newer with the C linker it calls. Nothing else.
+# Needed: git, make, Python 3.11 or newer, cargo 1.85 or newer with the C linker that it calls. Nothing else.
 #
-# What is out of date is decided by file times alone (stamps in .venv), so a second `make demo` starts at once.
+# File times alone decide what is out of date (stamps in .venv), so a second `make demo` starts at once.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
@@ -10,20 +10,61 @@ SHELL := /bin/bash
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 
 PYTHON ?= python3
-# rustup puts cargo here; a shell that was open before still does not know.
+# rustup puts cargo here; a shell that was open before does not know it yet.
 export PATH := $(PATH):$(HOME)/.cargo/bin
-# maturin builds the bindings with this set; clippy must too, or each would undo the other's build of pyo3.
-export PYO3_BUILD_EXTENSION_MODULE := 1
 
 BIN := .venv/bin
 UV := $(BIN)/uv
 REQUIREMENTS := requirements/run.txt requirements/test.txt requirements/docs.txt
 RUST := $(shell find crates -type f) Cargo.toml Cargo.lock .cargo/config.toml pyproject.toml
 
+# `--workspace` makes the tests use the very libraries that maturin builds (same features), so nothing is built twice.
+# clippy takes maturin's description of the interpreter, or each of the two would undo the other's build of pyo3.
+CARGO_TEST = ILLUMINANT_EMBREE="$$(ls "$(CURDIR)"/.venv/lib/python3*/site-packages/embreex.libs/libembree4*)" \
+  cargo test --release --workspace --quiet
+CLIPPY = PYO3_BUILD_EXTENSION_MODULE=1 PYO3_CONFIG_FILE="$$(ls "$(CURDIR)"/target/maturin/pyo3-config-*.txt | tail -n 1)" \
+  cargo clippy --release --workspace --all-targets --quiet -- -D warnings
+
 .PHONY: help setup demo test test-slow lint format bench wheel requirements clean FORCE
 
 help: ## List the verbs
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 22
+
+demo: .venv/.core ## Render scenes/demo.toml to demo.png
+	@$(BIN)/illuminant render scenes/demo.toml -o demo.png
+	@echo "illuminant: the image is $(CURDIR)/demo.png"
+
+test: lint ## Run every check: lint, Rust tests, Python tests
+	@echo "illuminant: cargo test"
+	@$(CARGO_TEST)
+	@echo "illuminant: pytest"
+	@$(BIN)/python -m pytest
+
+test-slow: .venv/.core ## Run the long tests too: the wheel in an empty environment and their like
+	@$(BIN)/python -m pytest -m slow
+
+lint: .venv/.core ## rustfmt, clippy, ruff, mypy; any warning fails
+	@tools/check_toolchain.sh $(BIN)/python lint
+	@echo "illuminant: rustfmt, clippy"
+	@cargo fmt --all --check
+	@$(CLIPPY)
+	@echo "illuminant: ruff, mypy"
+	@$(BIN)/ruff check --quiet
+	@$(BIN)/ruff format --quiet --check || { echo "illuminant: 'make format' lays these files out." >&2; exit 1; }
+	@$(BIN)/mypy
+
+format: .venv/.packages ## Lay out the Rust and Python sources
+	@cargo fmt --all
+	@$(BIN)/ruff check --quiet --fix-only
+	@$(BIN)/ruff format --quiet
+
+bench: .venv/.core .venv-bench/.packages ## Measure against raw Embree and against peers; prints tables
+	@for script in benches/*.py; do echo "illuminant: $$script"; $(BIN)/python "$$script"; done
+
+wheel: .venv/.core ## Build the abi3 wheel in dist/
+	@rm -rf dist
+	@$(BIN)/maturin build --quiet --release --strip --out dist
+	@echo "illuminant: the wheel is $$(ls "$(CURDIR)"/dist/*.whl)"
 
 # --- environment -------------------------------------------------------------------------------------------------
 
@@ -55,6 +96,7 @@ endif
 	@tools/check_toolchain.sh $(BIN)/python
 	@echo "illuminant: compiling the core (about two minutes the first time)"
 	@touch .venv/.core-begun
+	@$(if $(CI),cargo metadata --locked --format-version 1 > /dev/null)
 	@$(UV) pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation \
 	  --reinstall-package illuminant --editable .
 	@mv .venv/.core-begun $@
@@ -67,3 +109,14 @@ requirements: .venv/.uv ## Pin the Python packages again (UPGRADE=1 takes newer 
 	compile requirements/test.in -c requirements/run.txt -o requirements/test.txt; \
 	compile requirements/docs.in -c requirements/run.txt -c requirements/test.txt -o requirements/docs.txt; \
 	compile requirements/bench.in -o requirements/bench.txt
+
+# Peers live in an environment of their own: they pin other versions of the same packages.
+.venv-bench/.packages: requirements/bench.txt .venv/.uv
+	@$(UV) venv --quiet --clear --python $(BIN)/python .venv-bench
+	@$(UV) pip sync --quiet --python .venv-bench/bin/python --require-hashes $<
+	@touch $@
+
+clean: ## Remove everything that was built, and the environments
+	@rm -rf .venv .venv-bench dist target demo.png .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	@rm -f python/illuminant/*.so
+	@find python tests tools benches -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Says in one sentence what this machine lacks to build illuminant, and stops; silent when all is there.
-# usage: tools/check_toolchain.sh PYTHON
+# usage: tools/check_toolchain.sh PYTHON [lint]      lint: rustfmt and clippy are needed too
 set -u
 python=$1
 
@@ -28,3 +28,10 @@ at_least "${found:-0}" 1.85 ||
     stop "cargo 1.85 or newer is needed, $(command -v cargo) is ${found:-broken}; install a current Rust as https://rustup.rs describes."
 command -v cc >/dev/null ||
     stop "cargo needs a C linker and 'cc' was not found; install one (Debian: apt-get install gcc libc6-dev)."
+
+if [ "${2:-}" = lint ]; then
+    for tool in fmt clippy; do
+        cargo "$tool" --version >/dev/null 2>&1 ||
+            stop "'cargo $tool' is needed and was not found; install it with 'rustup component add rustfmt clippy'."
+    done
+fi

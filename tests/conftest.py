@@ -1,0 +1,40 @@
+"""What every test may use: the folders of this repository, the command, and one setting for property tests."""
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import hypothesis
+import pytest
+
+# A failure must come back on the next run, and a busy machine must not look like a slow property.
+hypothesis.settings.register_profile("illuminant", derandomize=True, deadline=None)
+hypothesis.settings.load_profile("illuminant")
+
+
+@pytest.fixture(scope="session")
+def repository() -> Path:
+    """The root of the checkout."""
+    return Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture(scope="session")
+def scenes(repository: Path) -> Path:
+    """The folder of the scenes that ship with the repository."""
+    return repository / "scenes"
+
+
+@pytest.fixture(scope="session")
+def command() -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Runs `illuminant` with the given arguments in a process of its own, as a shell would.
+
+    Keyword arguments go to `subprocess.run` (`cwd`, `env`, `timeout`); text comes back in `stdout` and `stderr`.
+    """
+
+    def run(*arguments: object, **options: object) -> subprocess.CompletedProcess[str]:
+        program = Path(sys.executable).with_name("illuminant")
+        options = {"capture_output": True, "text": True, "timeout": 300, **options}
+        return subprocess.run([str(program), *map(str, arguments)], **options)
+
+    return run
