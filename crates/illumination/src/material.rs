@@ -1,0 +1,74 @@
+//! What a material is, physically.
+
+use illuminant_spectrum::{Curve, Observer, SpectralRange};
+
+/// The wavelength whose index stands for a dielectric wherever one number must do: sodium d, 589.3 nm.
+pub const REPRESENTATIVE_NM: f64 = 589.3;
+
+/// A material: a name and the physics of its surface.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// The name that messages use.
+    pub name: String,
+    /// What its surface is made of.
+    pub surface: Surface,
+}
+
+/// The physics of a surface.
+#[derive(Clone, Debug)]
+pub enum Surface {
+    /// An ideal diffuser.
+    Diffuse {
+        /// Hemispherical reflectance, a fraction.
+        reflectance: Curve,
+    },
+    /// A conductor.
+    Conductor {
+        /// Real part of the index.
+        n: Curve,
+        /// Imaginary part.
+        k: Curve,
+        /// Slope parameter α of its facets; 0 is a mirror.
+        roughness: f64,
+    },
+    /// A transparent dielectric body.
+    Dielectric {
+        /// Index of refraction.
+        n: Curve,
+        /// Slope parameter α of its facets; 0 is smooth.
+        roughness: f64,
+        /// Absorption coefficient in the body, 1/m.
+        absorption: Option<Curve>,
+        /// Whether the index follows the curve; otherwise it is that at [`REPRESENTATIVE_NM`] throughout.
+        dispersion: bool,
+    },
+}
+
+impl Material {
+    /// A reflectance at normal incidence that stands for the material in auxiliary images and error estimates:
+    /// the diffuse reflectance, or Fresnel's of the smooth boundary (1 for a clear dielectric, which passes the rest).
+    #[must_use]
+    pub fn representative_reflectance(&self, range: SpectralRange) -> Curve {
+        use illuminant_optics::fresnel::conductor;
+        match &self.surface {
+            Surface::Diffuse { reflectance } => reflectance.clone(),
+            Surface::Conductor { n, k, .. } => {
+                let values = range.wavelengths().map(|w| conductor(1.0, n.at(w), k.at(w))).collect();
+                Curve::tabulated(range, values, illuminant_spectrum::Outside::Hold)
+            }
+            Surface::Dielectric { .. } => Curve::constant(1.0),
+        }
+    }
+
+    /// One number for the whole spectrum, by which paths are chosen and ended: the largest of the X, Y and Z of the
+    /// representative reflectance under equal energy. It never depends on the spectral sampling, so that all
+    /// samplings follow the same paths.
+    #[must_use]
+    pub fn brightness(&self, range: SpectralRange) -> f64 {
+        let reflectance = self.representative_reflectance(range);
+        let observer = Observer::cie_1931_2deg();
+        let white = observer.xyz(&Curve::constant(1.0), range);
+        let xyz = observer.xyz(&reflectance, range);
+        xyz.iter().zip(white).map(|(v, w)| if w > 0.0 { v / w } else { 0.0 }).fold(0.0, f64::max)
+    }
+}

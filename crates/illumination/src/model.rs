@@ -1,0 +1,115 @@
+//! The trait behind which every illumination model stands.
+
+use crate::Material;
+use glam::Vec3;
+use illuminant_sampling::{Basis, Lanes};
+use illuminant_spectrum::SpectralRange;
+use std::ops::Range;
+
+/// The laws a model claims; the tests check each claim, and that what is not claimed really fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Claims {
+    /// f(v, l) = f(l, v), up to the n² of the two sides.
+    pub reciprocal: bool,
+    /// No direction receives back more than came.
+    pub energy_conserving: bool,
+    /// Nothing is lost either, but to absorption.
+    pub equilibrium: bool,
+    /// Where the model comes from.
+    pub source: &'static str,
+}
+
+/// The one sample that a path still carries after a dispersive refraction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Hero {
+    /// Its number among all samples of the basis.
+    pub sample: usize,
+}
+
+/// The index of refraction on one side of a boundary.
+#[derive(Clone, Copy, Debug)]
+pub struct Index<'a, const N: usize> {
+    /// At the representative wavelength.
+    pub mean: f32,
+    /// The smallest over the range.
+    pub least: f32,
+    /// In every lane.
+    pub lanes: &'a Lanes<N>,
+}
+
+/// What a model knows of the place and the view: local vectors have z along the normal.
+#[derive(Clone, Copy, Debug)]
+pub struct Incidence<'a, const N: usize> {
+    /// Unit vector to the viewer.
+    pub to_viewer: Vec3,
+    /// The index on the viewer's side.
+    pub near: Index<'a, N>,
+    /// The index on the other side.
+    pub far: Index<'a, N>,
+    /// The one lane still carried, if the path has been dispersed and that lane is of this pass.
+    pub hero_lane: Option<usize>,
+}
+
+/// A direction drawn by a model.
+#[derive(Clone, Copy, Debug)]
+pub struct Scattered<const N: usize> {
+    /// Unit vector, local, from which light is asked for.
+    pub direction: Vec3,
+    /// f |cos| / pdf in every lane (for a discrete lobe: its weight over its probability).
+    pub weight: Lanes<N>,
+    /// The same for the whole spectrum as one number, without the n² of radiance: what decides a path's length.
+    pub brightness: f32,
+    /// Density of the direction, 1/sr; `None` for a discrete lobe.
+    pub pdf: Option<f32>,
+    /// Whether the direction lies on the other side.
+    pub transmitted: bool,
+    /// Whether only one lane can follow this direction: it has been bent by that lane's own index.
+    pub disperses: bool,
+}
+
+/// A direction out of a model's discrete part.
+#[derive(Clone, Copy, Debug)]
+pub struct DiscreteLobe<const N: usize> {
+    /// Unit vector, local.
+    pub direction: Vec3,
+    /// What the radiance from there is multiplied by.
+    pub weight: Lanes<N>,
+    /// Whether it lies on the other side.
+    pub transmitted: bool,
+}
+
+/// What a technique asks of a surface. All vectors are local, unit, and point away from the surface.
+///
+/// Decisions may look at brightness, never at lanes, so that every spectral sampling follows the same paths.
+pub trait IlluminationModel<const N: usize>: Send + Sync {
+    /// The bidirectional reflectance or transmittance f(v, l), 1/sr, of the continuous part: without cosine.
+    fn eval(&self, at: &Incidence<'_, N>, to_light: Vec3) -> Lanes<N>;
+
+    /// The density, 1/sr, with which [`Self::sample`] draws a direction of the continuous part.
+    fn pdf(&self, at: &Incidence<'_, N>, to_light: Vec3) -> f32;
+
+    /// Draws a direction from three numbers in [0, 1); `hero` is the lane that a dispersive refraction would keep
+    /// (`None` when it is not of this pass: the lanes then come back zero). `None` when the path ends here.
+    fn sample(&self, at: &Incidence<'_, N>, u: [f32; 3], hero: Option<usize>) -> Option<Scattered<N>>;
+
+    /// The discrete lobes: mirror direction and smooth refraction. Empty for rough surfaces.
+    fn discrete_lobes(&self, at: &Incidence<'_, N>) -> Vec<DiscreteLobe<N>>;
+
+    /// Whether the model has a continuous part at all, so that asking lamps is worth it.
+    fn is_continuous(&self) -> bool;
+
+    /// What the surface returns of light that comes evenly from everywhere and is not followed; zero for models in
+    /// equilibrium, which follow all light.
+    fn ambient(&self) -> Lanes<N> {
+        Lanes::default()
+    }
+
+    /// The laws it claims.
+    fn claims(&self) -> Claims;
+}
+
+/// How a model is made from a material: the documented rule of each model.
+pub trait Prepare: Sized {
+    /// Derives the model's coefficients in the lanes of one pass (`samples` of `basis`).
+    fn prepare(material: &Material, basis: &dyn Basis, samples: Range<usize>, range: SpectralRange) -> Self;
+}
