@@ -318,6 +318,7 @@ class _Table:
 
     file: str
     header: dict[str, str]
+    header_lines: dict[str, int]
     columns: tuple[str, ...]
     rows: tuple[tuple[float, ...], ...]
     lines: tuple[int, ...]
@@ -363,10 +364,12 @@ def read(
     """
     table = _table(Path(path))
     index = _column(table, column)
-    said = quantity if quantity is not None else _quantity(table.header.get("quantity", ""))
-    rule = outside or table.header.get("outside") or ("zero" if said == "emission" else "hold")
+    said = quantity if quantity is not None else _quantity(table.header.get("quantity", "").casefold())
+    stated = outside or table.header.get("outside", "").casefold()
+    rule = stated or ("zero" if said == "emission" else "hold")
     if rule not in OUTSIDE:
-        raise DataError(f"outside is {rule!r}; expected {_one_of(OUTSIDE)}", table.file)
+        line = 0 if outside else table.header_lines["outside"]
+        raise DataError(f"outside is {rule!r}; expected {_one_of(OUTSIDE)}", table.file, line)
     wavelengths = tuple(row[0] for row in table.rows)
     values = tuple(row[index] for row in table.rows)
     mistake = _mistake(wavelengths, values, said)
@@ -405,6 +408,7 @@ def _table(path: Path) -> _Table:
     """Read a file into numbers; all that can be wrong with a row by itself is found here."""
     file = str(path)
     header: dict[str, str] = {}
+    header_lines: dict[str, int] = {}
     columns: tuple[str, ...] = ()
     rows: list[tuple[float, ...]] = []
     lines: list[int] = []
@@ -416,6 +420,7 @@ def _table(path: Path) -> _Table:
             key, colon, value = comment.partition(":")
             if colon:
                 header.setdefault(key.strip().casefold(), value.strip())
+                header_lines.setdefault(key.strip().casefold(), number)
             continue
         fields = _fields(content)
         numbers = [_number(text) for text in fields]
@@ -434,7 +439,7 @@ def _table(path: Path) -> _Table:
         lines.append(number)
     if columns and rows and len(columns) != len(rows[0]):
         columns = ()  # words with blanks in them, as in "Wavelength (nm)   Power": they name nothing
-    return _Table(file, header, columns, tuple(rows), tuple(lines))
+    return _Table(file, header, header_lines, columns, tuple(rows), tuple(lines))
 
 
 def _fields(content: str) -> list[str]:

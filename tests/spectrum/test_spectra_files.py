@@ -47,7 +47,7 @@ def test_forms_that_are_read(write, content):
 
 
 def test_header_lines_are_heeded_and_arguments_win(write):
-    path = write("# name: lamp\n# quantity: emission\n# unit: W nm-1\n# source: me\n400,1\n500,2\n")
+    path = write("# name: lamp\n# Quantity: Emission\n# unit: W nm-1\n# source: me\n400,1\n500,2\n")
     curve = spectra.read(path)
     assert (curve.name, curve.quantity, curve.unit, curve.provenance) == ("lamp", "emission", "W nm-1", "me")
     assert curve.outside == "zero"
@@ -189,8 +189,8 @@ BROKEN = {
     ),
     "UTF-16": ("400,1\n500,2\n".encode("utf-16"), 0, "is text in UTF-16; expected UTF-8"),
     "rule outside": (
-        "# outside: mirror\n400,1\n500,2\n",
-        0,
+        "# a lamp\n# outside: mirror\n400,1\n500,2\n",
+        2,
         "outside is 'mirror'; expected 'zero', 'hold' or 'error'",
     ),
 }
