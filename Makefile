@@ -40,7 +40,7 @@ test: lint ## Run every check: lint, Rust tests, Python tests
 	@echo "illuminant: pytest"
 	@$(BIN)/python -m pytest
 
-test-slow: .venv/.core ## Run the long tests too: the wheel in an empty environment and their like
+test-slow: .venv/.core ## Run the long tests: the wheel in an empty environment and their like
 	@$(BIN)/python -m pytest -m slow
 
 lint: .venv/.core ## rustfmt, clippy, ruff, mypy; any warning fails
@@ -58,8 +58,10 @@ format: .venv/.packages ## Lay out the Rust and Python sources
 	@$(BIN)/ruff check --quiet --fix-only
 	@$(BIN)/ruff format --quiet
 
-bench: .venv/.core .venv-bench/.packages ## Measure against raw Embree and against peers; prints tables
-	@for script in benches/*.py; do echo "illuminant: $$script"; $(BIN)/python "$$script"; done
+bench: .venv/.core ## Measure beside peers and beside raw Embree; prints tables (docs/benchmarks.md)
+	@peers=$$(benches/peers.sh); eval "$$peers"; \
+	for script in compare_mitsuba embree_limit memory; do \
+	  echo "illuminant: benches/$$script.py"; $(BIN)/python benches/$$script.py; done
 
 wheel: .venv/.core ## Build the abi3 wheel in dist/
 	@rm -rf dist
