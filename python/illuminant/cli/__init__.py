@@ -1,0 +1,129 @@
+"""The command `illuminant`: one module for each verb, and here what they share.
+
+Exit codes: 0 success; 1 a check that was asked for fails; 2 wrong input; 3 the machine fails; 130 after
+Ctrl-C, with the partial image written. An error is one sentence on stderr; its traceback comes only with
+`--debug`.
+
+Only Typer is imported here: NumPy, the core and everything else wait until a verb needs them.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import Annotated, Any, NoReturn
+
+import typer
+
+from illuminant.cli import check, diff, info, new, render, spectra
+from illuminant.cli.report import sentence
+
+__all__ = ["app", "main", "run"]
+
+app = typer.Typer(
+    name="illuminant",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.command("new", short_help="Write a commented starter scene.")(new.new)
+app.command("check", short_help="Report every mistake of a scene.")(check.check)
+app.command("render", short_help="Render a scene to an image.")(render.render)
+app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
+app.command("info", short_help="Say what was found here, or in an image.")(info.info)
+app.add_typer(spectra.app, name="spectra", short_help="List and show measured spectra.")
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        import illuminant
+
+        typer.echo(f"illuminant {illuminant.__version__}")
+        raise typer.Exit
+
+
+@app.callback(invoke_without_command=True)
+def _start(
+    context: typer.Context,
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+    debug: Annotated[
+        bool, typer.Option("--debug", help="Show the traceback of an error; may stand anywhere.")
+    ] = False,
+) -> None:
+    """Images whose colours can be trusted: from measured lamps and materials to a calibrated display.
+
+    \b
+    Start with:
+      illuminant new room.toml
+      illuminant render room.toml -o room.png
+    """
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help(), nl=False)
+
+
+def main(prog_name: str = "illuminant") -> NoReturn:
+    """The entry point of the command: run it and leave the process with its exit code."""
+    sys.exit(run(sys.argv[1:], prog_name))
+
+
+def run(arguments: Sequence[str], prog_name: str = "illuminant") -> int:
+    """Run the command and return its exit code.
+
+    Args:
+        arguments: what stands after the name of the command.
+        prog_name: how help calls the command.
+
+    Example:
+        >>> run(["--version"])        # doctest: +SKIP
+        illuminant 0.1.0
+        0
+    """
+    from illuminant.errors import Error
+
+    debug = "--debug" in arguments
+    arguments = [argument for argument in arguments if argument != "--debug"]
+    try:
+        code = app(list(arguments), prog_name=prog_name, standalone_mode=False)
+        return code if isinstance(code, int) else 0
+    except Error as error:
+        if debug:
+            raise
+        sentence("Error", str(error))
+        return error.exit_code
+    except KeyboardInterrupt:
+        sentence("Interrupted", "nothing was written.")
+        return 130
+    except MemoryError:
+        if debug:
+            raise
+        sentence("Error", "There is not enough memory.")
+        return 3
+    except Exception as error:
+        if debug:
+            raise
+        return _foreign(error, prog_name)
+    except BaseException as error:  # a panic of the core is no Exception
+        if debug or isinstance(error, (SystemExit, GeneratorExit)):
+            raise
+        return _unexpected(error)
+
+
+def _foreign(error: Exception, prog_name: str) -> int:
+    """Report an error that is not ours: a mistake in the command line, or a defect."""
+    message: Any = getattr(error, "format_message", None)
+    if message is None:
+        return _unexpected(error)
+    context = getattr(error, "ctx", None)
+    path = getattr(context, "command_path", prog_name) or prog_name
+    text = " ".join(str(message()).split()).rstrip(".")
+    sentence("Error", f"{text} (see `{path} --help`).")
+    return 2
+
+
+def _unexpected(error: BaseException) -> int:
+    text = " ".join(str(error).split()).rstrip(".")
+    sentence("Error", f"{type(error).__name__}: {text}. This should not happen; --debug shows where it did.")
+    return 3

@@ -1,0 +1,318 @@
+"""`illuminant render`: a scene becomes an image."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from illuminant.cli.options import Exposure, Json, SceneFile
+
+if TYPE_CHECKING:
+    from illuminant.image import Image, Saved
+    from illuminant.rendering import Job
+
+__all__ = ["render"]
+
+
+def render(
+    scene: SceneFile,
+    output: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Image: .exr (absolute) or .png (for a display); may be given twice (SCENE.png).",
+            show_default=False,
+        ),
+    ] = None,
+    samples: Annotated[
+        int | None,
+        typer.Option("--samples", metavar="N", help="Paths for each pixel (64)."),
+    ] = None,
+    time: Annotated[
+        str | None,
+        typer.Option("--time", metavar="TIME", help="End after 30s, 5m or 1.5h."),
+    ] = None,
+    error: Annotated[
+        str | None,
+        typer.Option(
+            "--error",
+            metavar="E",
+            help="End when 95 % of the pixels have a standard error below E (1%, say) of their luminance or the "
+            "image's mean, whichever is larger.",
+        ),
+    ] = None,
+    technique: Annotated[
+        str | None,
+        typer.Option("--technique", metavar="NAME", help="How light is followed (path)."),
+    ] = None,
+    illumination: Annotated[
+        str | None,
+        typer.Option("--illumination", metavar="NAME", help="What a surface does (general)."),
+    ] = None,
+    sampling: Annotated[
+        str | None,
+        typer.Option(
+            "--sampling",
+            metavar="NAME",
+            help="How wavelengths are carried: uniform:N, N up to 32, or 1nm, the reference (uniform:32).",
+        ),
+    ] = None,
+    size: Annotated[
+        str | None,
+        typer.Option("--size", metavar="WxH", help="Pixels, such as 960x540 (the camera's)."),
+    ] = None,
+    depth: Annotated[
+        int | None,
+        typer.Option("--depth", metavar="N", help="Largest number of bounces (no limit)."),
+    ] = None,
+    filter: Annotated[
+        str | None,
+        typer.Option(
+            "--filter",
+            metavar="F",
+            help="Reconstruction filter: gaussian, box or tent, with its radius (gaussian:1.5).",
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None,
+        typer.Option("--seed", metavar="N", help="Seed of the random numbers; same seed, same bits (0)."),
+    ] = None,
+    threads: Annotated[
+        int | None,
+        typer.Option(
+            "--threads", metavar="N", help="Threads; their number changes no bit of the image (all cores)."
+        ),
+    ] = None,
+    layers: Annotated[
+        str | None,
+        typer.Option(
+            "--layers",
+            metavar="NAMES",
+            help="Auxiliary images in the EXR: depth,normal,albedo,samples.",
+        ),
+    ] = None,
+    lamps: Annotated[bool, typer.Option("--lamps", help="A layer for the light of each lamp.")] = False,
+    keep_spectra: Annotated[
+        bool,
+        typer.Option("--keep-spectra", help="A channel for each wavelength, in the EXR."),
+    ] = False,
+    half: Annotated[
+        bool,
+        typer.Option("--half", help="16-bit floats in the EXR; their largest is 65504."),
+    ] = False,
+    exposure: Exposure = None,
+    rgb: Annotated[
+        str | None,
+        typer.Option(
+            "--rgb",
+            metavar="SYSTEM",
+            help="RGB system of the file: sRGB, Rec.2020, 'Display P3', ... (sRGB; XYZ for EXR).",
+        ),
+    ] = None,
+    bits: Annotated[
+        int,
+        typer.Option("--bits", metavar="8|16", help="Bits of a channel of a PNG (8).", show_default=False),
+    ] = 8,
+    pixel: Annotated[
+        str | None,
+        typer.Option(
+            "--pixel",
+            metavar="X,Y",
+            help="Render nothing: follow one path of this pixel again and print its vertices.",
+        ),
+    ] = None,
+    sample: Annotated[
+        int,
+        typer.Option("--sample", metavar="K", help="Which path of that pixel (0).", show_default=False),
+    ] = 0,
+    json: Json = False,
+) -> None:
+    """Render a scene to an image.
+
+    Ctrl-C ends cleanly and writes what is done. Options not given are the scene's own, in its table
+    [render], or the defaults in parentheses.
+
+    \b
+    Examples:
+      illuminant render room.toml -o room.png
+      illuminant render room.toml -o room.exr -o room.png --time 30s
+    """
+    from illuminant.cli.report import closing, emit_json, note, warning
+    from illuminant.image import check_output
+    from illuminant.rendering import Job
+
+    paths = output or [Path(scene.stem + ".png")]
+    if pixel is None:
+        for path in paths:
+            check_output(path)
+    _check_look(exposure, rgb, bits)
+    job = Job(
+        scene,
+        technique=technique,
+        illumination=illumination,
+        sampling=sampling,
+        samples=samples,
+        size=size,
+        depth=depth,
+        seed=seed,
+        threads=threads,
+        filter=filter,
+        layers=layers,
+        keep_spectra=keep_spectra or None,
+        lamps=lamps or None,
+        time=time,
+        error=error,
+    )
+    if pixel is not None:
+        _print_path(job, pixel, sample, json)
+        return
+    for text in job.warnings():
+        warning(text)
+    if (layers or lamps or keep_spectra) and not any(path.suffix.lower() == ".exr" for path in paths):
+        warning("A PNG holds no layers: add -o FILE.exr to keep them.")
+
+    image = _work(job, scene.name)
+    saved = [image.save(path, exposure=exposure, rgb=rgb, half=half, bits=bits) for path in paths]
+    facts = _facts(job, image, saved)
+    if json:
+        emit_json(facts)
+    else:
+        note(closing(facts))
+        _say_exposure(saved, image)
+    _say_dropped(image)
+    if job.interrupted:
+        from illuminant.cli.report import sentence
+        from illuminant.rendering import held
+
+        sentence("Interrupted", f"{held(image)}.")
+        raise typer.Exit(130)
+
+
+def _check_look(exposure: float | None, rgb: str | None, bits: int) -> None:
+    """Refuse before the work what `Image.save` would refuse after it."""
+    from illuminant.errors import UsageError
+
+    if exposure is not None and not 0 < exposure < float("inf"):
+        raise UsageError(f"--exposure {exposure:g}: expected a positive number.")
+    if bits not in (8, 16):
+        raise UsageError(f"--bits {bits}: a PNG has 8 or 16 bits a channel.")
+    if rgb is not None:
+        from illuminant import rgb_system
+
+        rgb_system.named(rgb)
+
+
+def _work(job: Job, name: str) -> Image:
+    """Render until the settings, or the first Ctrl-C or SIGTERM, end it."""
+    from illuminant.cli.report import progress_bar
+
+    with progress_bar(name) as bar, _stopping(job):
+        for _ in job.passes(bar):
+            pass
+        return job.image()
+
+
+@contextmanager
+def _stopping(job: Job) -> Iterator[None]:
+    """The first Ctrl-C (or SIGTERM) ends the work at the next tile; a second one ends the program at once."""
+
+    def stop(number: int, frame: Any) -> None:
+        if job.interrupted:
+            raise KeyboardInterrupt
+        job.interrupt()
+
+    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _facts(job: Job, image: Image, saved: list[Saved]) -> dict[str, Any]:
+    """What the closing line and `--json` say."""
+    found = image.statistics
+    seconds = float(found["wall_seconds"])
+    samples = float(found["samples"])
+    shown = next((item for item in saved if item.exposure is not None), None)
+    return {
+        "files": [item.path for item in saved],
+        "complete": not (job.interrupted or job.stopped),
+        "seconds": seconds,
+        "samples": int(samples),
+        "samples_per_pixel": found["samples_per_pixel"],
+        "msamples_per_second": samples / max(seconds, 1e-9) / 1e6,
+        "mrays_per_second": float(found["rays"]) / max(seconds, 1e-9) / 1e6,
+        "peak_memory": int(found["peak_memory"]),
+        "spectral_error": job.spectral_error(),
+        "dropped": int(found["dropped"]),
+        "dropped_samples": found.get("dropped_samples", []),
+        "unit": image.unit,
+        "exposure": shown.exposure if shown else None,
+        "clamped": shown.clamped if shown else None,
+        "white": image.white(),
+        "settings": image.settings,
+    }
+
+
+def _say_exposure(saved: list[Saved], image: Image) -> None:
+    """Say which exposure a PNG was given, if nobody had chosen one, and how much of it was clamped."""
+    from illuminant.cli.report import note
+
+    shown = next((item for item in saved if item.exposure is not None), None)
+    if shown is None:
+        return
+    if shown.chosen and shown.exposure:
+        white = f"{0.8 / shown.exposure:.4g} {image.unit}"
+        note(f"White, {white}, is shown as 0.8; --exposure {shown.exposure:g} repeats it.")
+    if shown.clamped and shown.clamped >= 0.0005:
+        note(
+            f"{100 * shown.clamped:.1f} % of the pixels are outside the gamut or above white, and are clamped."
+        )
+
+
+def _say_dropped(image: Image) -> None:
+    """Name the first dropped samples, and the command that follows one again."""
+    from illuminant.cli.report import warning
+
+    dropped = image.statistics.get("dropped_samples") or []
+    for item in list(dropped)[:3]:
+        x, y = item["pixel"]
+        where = f"object {item['object']}, material {item['material']}" if item.get("object") else "no object"
+        warning(
+            f"Sample {item['sample']} of pixel {x},{y} was dropped ({item['reason']}; {where}): "
+            f"--pixel {x},{y} --sample {item['sample']} follows it again."
+        )
+
+
+def _print_path(job: Job, pixel: str, sample: int, json: bool) -> None:
+    """Follow one path again and print its vertices, one a line."""
+    from illuminant.cli.report import emit_json
+    from illuminant.rendering import replay_job
+    from illuminant.settings import pixel as parse
+
+    vertices = replay_job(job, parse(pixel), sample)
+    if json:
+        emit_json(vertices)
+        return
+    for index, vertex in enumerate(vertices):
+        typer.echo(f"{index:3}  " + "  ".join(f"{key} {_short(value)}" for key, value in vertex.items()))
+
+
+def _short(value: Any) -> str:
+    """A value for a line of text: numbers to five digits, long lists cut."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, float):
+        return f"{value:.5g}"
+    if isinstance(value, (list, tuple)):
+        shown = ", ".join(_short(item) for item in value[:4])
+        return f"({shown}, ... {len(value)} in all)" if len(value) > 4 else f"({shown})"
+    return str(value)

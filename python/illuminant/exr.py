@@ -1,0 +1,252 @@
+"""OpenEXR files: absolute colour, layers and lanes, with everything that is needed to read them rightly.
+
+What a file written here holds:
+
+- `R`, `G`, `B`: 32-bit floats (16-bit on request), in the RGB system that the standard attribute
+  `chromaticities` states. The default is CIE XYZ itself, stated as ILM's own XYZ sample file does: primaries
+  (1, 0), (0, 1), (0, 0) and white (1/3, 1/3), so that R is X, G is Y and B is Z. Viewers that honour
+  `chromaticities` (tev, HDRView, openexr-viewer, exrdisplay) show it rightly; one that ignores it (GIMP, many
+  compositors) shows XYZ as if it were sRGB: for those, save with `rgb="sRGB"`.
+- `whiteLuminance` (standard) is the luminance in cd/m² of the value (1, 1, 1). It is 1, since Y is in cd/m²:
+  values are never scaled.
+- Layers as channels `NAME.X`, `NAME.Y`, `NAME.Z` or, with one value a pixel, `NAME.Z` for depth and `NAME`
+  for others.
+- Lanes, when they were kept, in the layout for spectral images of Fichet, Pacanowski and Wilkie (2021), one
+  channel `S0.550,000nm` a lane, with `spectralLayoutVersion` and `emissiveUnits`, and in `illuminant:toXYZ`
+  the 3 × N matrix (row by row) that takes the lanes to the image's XYZ.
+- `illuminant:settings` (JSON) says how the image was made, `illuminant:exposure` which exposure shows it, and
+  `illuminant:unit` what unit Y has. There is no date: the same render gives the same bytes.
+
+References: OpenEXR standard attributes; Fichet, Pacanowski, Wilkie, "An OpenEXR Layout for Spectral Images",
+JCGT 10(3), 2021.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from illuminant.errors import ImageError, UsageError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.floating[Any]]
+
+__all__ = ["LARGEST_HALF", "REC709", "XYZ", "Contents", "read", "write"]
+
+LARGEST_HALF = 65504.0
+"""The largest finite half float."""
+
+XYZ = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1 / 3, 1 / 3)
+"""`chromaticities` of CIE XYZ: x and y of red, green, blue and white."""
+
+REC709 = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)
+"""What a file without `chromaticities` has, by the standard."""
+
+_LANE = re.compile(r"S0\.(\d+),(\d+)nm")
+# Layers of one value a pixel whose channel compositing programs look for.
+_SINGLE = {"depth": "Z"}
+
+
+@dataclass
+class Contents:
+    """What an EXR file holds, as arrays.
+
+    Attributes:
+        rgb: (h, w, 3), in the system of `chromaticities`.
+        chromaticities: x and y of red, green, blue and white.
+        layers: (h, w, c) arrays by name; those with three values are XYZ or vectors, never in an RGB system.
+        wavelengths_nm: (N,) when lanes were kept.
+        to_xyz: (3, N) when lanes were kept; the lanes themselves are the layer `spectra`.
+        attributes: `illuminant:*` attributes without that prefix, and `whiteLuminance` when there is one.
+        half: whether the numbers are (to be) 16-bit floats.
+    """
+
+    rgb: Array
+    chromaticities: tuple[float, ...] = XYZ
+    layers: dict[str, Array] = field(default_factory=dict)
+    wavelengths_nm: Array | None = None
+    to_xyz: Array | None = None
+    attributes: dict[str, Any] = field(default_factory=dict)
+    half: bool = False
+
+
+def _lane(wavelength_nm: float) -> str:
+    return f"S0.{wavelength_nm:.3f}nm".replace(".", ",").replace("S0,", "S0.", 1)
+
+
+def _channels(contents: Contents) -> tuple[list[str], list[Array]]:
+    """Names of the channels, and the arrays whose last axes they are, in the same order."""
+    names = ["R", "G", "B"]
+    arrays = [contents.rgb]
+    for name, layer in contents.layers.items():
+        count = layer.shape[2]
+        if name == "spectra" and contents.wavelengths_nm is not None:
+            names += [_lane(float(wavelength)) for wavelength in contents.wavelengths_nm]
+        elif count == 1:
+            names.append(f"{name}.{_SINGLE[name]}" if name in _SINGLE else name)
+        elif count == 3:
+            names += [f"{name}.{axis}" for axis in "XYZ"]
+        else:
+            names += [f"{name}.{index}" for index in range(count)]
+        arrays.append(layer)
+    return names, arrays
+
+
+def write(path: str | Path, contents: Contents) -> None:
+    """Write an EXR file (not atomically: see `illuminant.output`).
+
+    Args:
+        path: the file; its name ends with `.exr`.
+        contents: what to write; arrays of one height and width.
+
+    Raises:
+        UsageError: a value is too large for a half float.
+        OSError: the file cannot be written whole (errno ENOSPC when nothing better is known).
+    """
+    import numpy as np
+    import OpenImageIO as oiio
+
+    names, arrays = _channels(contents)
+    kind = np.float16 if contents.half else np.float32
+    height, width = contents.rgb.shape[:2]
+    if contents.half:
+        largest = max((float(np.abs(array).max(initial=0.0)) for array in arrays), default=0.0)
+        if largest > LARGEST_HALF:
+            raise UsageError(
+                f"A value of {largest:.6g} does not fit 16-bit floats, whose largest is 65504: save without --half."
+            )
+    pixels = np.empty((height, width, len(names)), kind)
+    first = 0
+    for array in arrays:
+        pixels[..., first : first + array.shape[2]] = array
+        first += array.shape[2]
+
+    spec = oiio.ImageSpec(width, height, len(names), oiio.HALF if contents.half else oiio.FLOAT)
+    spec.channelnames = tuple(names)
+    spec.attribute("compression", "zip")
+    spec.attribute("DateTime", "")  # the same render shall give the same bytes
+    spec.attribute("chromaticities", "float[8]", tuple(contents.chromaticities))
+    for key, value in contents.attributes.items():
+        if key == "settings":
+            value = json.dumps(value)
+        if key in ("whiteLuminance", "Software"):
+            spec.attribute(key, value)
+        elif isinstance(value, float):
+            spec.attribute(f"illuminant:{key}", "double", value)
+        else:
+            spec.attribute(f"illuminant:{key}", value)
+    if contents.wavelengths_nm is not None:
+        spec.attribute("spectralLayoutVersion", "1.0")
+        spec.attribute("emissiveUnits", "W.m^-2.sr^-1.nm^-1")
+    if contents.to_xyz is not None:
+        numbers = tuple(float(number) for number in contents.to_xyz.ravel())
+        spec.attribute("illuminant:toXYZ", f"float[{len(numbers)}]", numbers)
+
+    file = oiio.ImageOutput.create(str(path))
+    if file is None:
+        raise ImageError(f"OpenImageIO cannot write EXR here: {oiio.geterror()}.")
+    written = file.open(str(path), spec) and file.write_image(pixels)
+    message = "" if written else file.geterror()
+    written = file.close() and written
+    if not written or not _whole(path, height):
+        # The library says no more than "File output failed"; ask the system what it thinks of this file.
+        _probe(Path(path))
+        raise OSError(28, "no space left on device, or it failed", message)
+
+
+def _whole(path: str | Path, height: int) -> bool:
+    """Whether the last rows can be read back: closing reports no failure of its last flush."""
+    import OpenImageIO as oiio
+
+    file = oiio.ImageInput.open(str(path))
+    if file is None:
+        return False
+    try:
+        return file.read_scanlines(height - 1, height, 0, 0, 1) is not None
+    finally:
+        file.close()
+
+
+def _probe(path: Path) -> None:
+    """Append to the file that failed, so that the system raises its own error (full, too large, I/O)."""
+    with open(path, "ab") as file:
+        file.write(bytes(65536))
+
+
+def read(path: str | Path) -> Contents:
+    """Read an EXR file, written here or elsewhere.
+
+    Args:
+        path: the file.
+
+    Returns:
+        Its contents; a file with luminance only is given three equal channels.
+
+    Raises:
+        ImageError: the file is not there, is no EXR, or has no colour.
+    """
+    import numpy as np
+    import OpenImageIO as oiio
+
+    file = oiio.ImageInput.open(str(path))
+    if file is None:
+        reason = " ".join((oiio.geterror() or "not a readable image").split()).rstrip(".")
+        raise ImageError(f"{path} cannot be read: {reason}.")
+    try:
+        spec = file.spec()
+        pixels = file.read_image(oiio.FLOAT)
+        if pixels is None:
+            raise ImageError(f"{path} cannot be read: {' '.join(file.geterror().split()).rstrip('.')}.")
+    finally:
+        file.close()
+    pixels = np.asarray(pixels).reshape(spec.height, spec.width, spec.nchannels)
+    index = {name: i for i, name in enumerate(spec.channelnames)}
+    colour = next(
+        (c for c in (("R", "G", "B"), ("X", "Y", "Z"), ("Y", "Y", "Y")) if set(c) <= set(index)), None
+    )
+    if colour is None:
+        raise ImageError(f"{path} has no colour: its channels are {', '.join(spec.channelnames)}.")
+    attributes = {item.name: item.value for item in spec.extra_attribs}
+    contents = Contents(
+        rgb=pixels[..., [index[name] for name in colour]].astype(np.float64),
+        chromaticities=XYZ if colour[0] == "X" else _floats(attributes.get("chromaticities", REC709)),
+        half=spec.format == oiio.HALF,
+    )
+    _read_layers(contents, pixels, [name for name in spec.channelnames if name not in (*colour, "A")], index)
+    for key, value in attributes.items():
+        if key == "whiteLuminance" or (key.startswith("illuminant:") and key != "illuminant:toXYZ"):
+            contents.attributes[key.removeprefix("illuminant:")] = value
+    if isinstance(contents.attributes.get("settings"), str):
+        contents.attributes["settings"] = json.loads(contents.attributes["settings"])
+    numbers = attributes.get("illuminant:toXYZ")
+    if numbers is not None:
+        contents.to_xyz = np.asarray(numbers, np.float64).reshape(3, -1)
+    return contents
+
+
+def _floats(values: Any) -> tuple[float, ...]:
+    return tuple(float(value) for value in values)
+
+
+def _read_layers(contents: Contents, pixels: Array, names: list[str], index: dict[str, int]) -> None:
+    """Gather channels into layers by the part of their name before the last dot."""
+    import numpy as np
+
+    lanes = {name: match for name in names if (match := _LANE.fullmatch(name))}
+    if lanes:
+        wavelengths = {name: float(f"{match[1]}.{match[2]}") for name, match in lanes.items()}
+        order = sorted(lanes, key=wavelengths.__getitem__)
+        contents.wavelengths_nm = np.array([wavelengths[name] for name in order])
+        contents.layers["spectra"] = pixels[..., [index[name] for name in order]]
+    groups: dict[str, list[str]] = {}
+    for name in names:
+        if name not in lanes:
+            groups.setdefault(name.rpartition(".")[0] or name, []).append(name)
+    for layer, channels in groups.items():
+        contents.layers[layer] = pixels[..., [index[name] for name in channels]]

@@ -1,0 +1,361 @@
+"""An image: absolute colour, and everything that is known of how it was made.
+
+The colour of a pixel is XYZ (CIE 1931 2°) in absolute units: Y is the luminance in cd/m² (with K_m = 683
+lm/W). Nothing is scaled or clamped until a display is asked for: `save("a.png")` and `show()` apply an
+exposure, an RGB system and its transfer function; `save("a.exr")` writes the numbers as they are.
+
+With no exposure given, the scene's white is mapped to 0.8 of the display's: white is the 98th percentile of Y
+over the pixels that do not emit light themselves (a lamp in the picture shall not make the rest dark).
+
+Example:
+    >>> import numpy as np
+    >>> image = Image(np.full((2, 3, 3), 50.0))
+    >>> image.width, image.height, image.auto_exposure()
+    (3, 2, 0.016)
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from illuminant import output
+from illuminant.errors import ImageError, UsageError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.floating[Any]]
+
+__all__ = ["EXTENSIONS", "UNIT", "WHITE", "Image", "Saved", "check_output"]
+
+UNIT = "cd/m2"
+"""Unit of Y of an image that was rendered."""
+
+RELATIVE = "relative"
+"""Unit of Y of an image that came from a file which states none: 1 is the display's white."""
+
+WHITE = 0.8
+"""Display value, linear, to which an exposure that was not given maps the scene's white."""
+
+PERCENTILE = 98.0
+"""Which percentile of Y is the scene's white."""
+
+EXTENSIONS = (".exr", ".png")
+
+
+class Saved(NamedTuple):
+    """What `Image.save` did.
+
+    Attributes:
+        path: the file.
+        exposure: factor from Y to the display's 0 to 1; None for an EXR, which is never scaled.
+        chosen: whether the exposure was chosen from the image, not given.
+        clamped: fraction of pixels outside the display's gamut or above its white; None for an EXR.
+    """
+
+    path: Path
+    exposure: float | None
+    chosen: bool
+    clamped: float | None
+
+
+def check_output(path: str | os.PathLike[str]) -> Path:
+    """Refuse a path that an image cannot be saved to, before it is rendered.
+
+    Raises:
+        UsageError: its extension is neither `.exr` nor `.png`.
+        ImageError, MachineError: as `illuminant.output.check`.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in EXTENSIONS and not path.is_dir():
+        what = f"has the extension {path.suffix}" if path.suffix else "has no extension"
+        raise UsageError(
+            f"{path} {what}: an image is saved as .exr (absolute colour) or .png (for a display)."
+        )
+    return output.check(path)
+
+
+@dataclass
+class Image:
+    """Absolute colour, layers, and how they were made.
+
+    Attributes:
+        xyz: (h, w, 3) float64; Y in `unit`.
+        layers: further arrays (h, w, c) by name: `depth` (m), `normal`, `albedo` (XYZ, relative), `samples`,
+            `lamp:NAME` (XYZ, in `unit`), `spectra` (lanes, W/(sr m² nm)), `emission` (1 where a pixel shines
+            itself).
+        unit: of Y: `cd/m2`, or `relative` for an image from a file that does not say.
+        settings: what is needed to make it again: scene, hash, version, technique, sampling, samples, seed,
+            ...
+        exposure: factor from Y to the display's 0 to 1 that the scene's author or the caller gave; None if
+            nobody did.
+        statistics: how the work went: seconds, rays, dropped samples; not saved.
+        wavelengths_nm, to_xyz: of the lanes (N,) and (3, N), when they were kept; xyz = to_xyz @ lanes.
+    """
+
+    xyz: Array
+    layers: dict[str, Array] = field(default_factory=dict)
+    unit: str = UNIT
+    settings: dict[str, Any] = field(default_factory=dict)
+    exposure: float | None = None
+    statistics: dict[str, Any] = field(default_factory=dict)
+    wavelengths_nm: Array | None = None
+    to_xyz: Array | None = None
+
+    def __post_init__(self) -> None:
+        """Check the shape of the colour."""
+        import numpy as np
+
+        self.xyz = np.asarray(self.xyz, np.float64)
+        if self.xyz.ndim != 3 or self.xyz.shape[2] != 3 or self.xyz.size == 0:
+            raise UsageError(f"An image is an array of shape (height, width, 3), not {self.xyz.shape}.")
+
+    def __repr__(self) -> str:
+        """Size, unit and layers, without the numbers."""
+        layers = f", layers {', '.join(self.layers)}" if self.layers else ""
+        return f"<Image {self.width}x{self.height}, XYZ in {self.unit}{layers}>"
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
+        """The absolute XYZ, so that NumPy takes an image as an array."""
+        import numpy as np
+
+        return np.array(self.xyz, dtype=dtype, copy=True if copy is None else copy)
+
+    @property
+    def width(self) -> int:
+        """Width in pixels."""
+        return int(self.xyz.shape[1])
+
+    @property
+    def height(self) -> int:
+        """Height in pixels."""
+        return int(self.xyz.shape[0])
+
+    def white(self) -> float:
+        """The scene's white: 98th percentile of Y over the pixels that do not emit; over all if there are none else.
+
+        Returns:
+            Luminance in `unit`; 0 for a black image.
+        """
+        import numpy as np
+
+        luminance = self.xyz[..., 1]
+        emission = self.layers.get("emission")
+        if emission is not None:
+            lit = luminance[emission[..., 0] == 0]
+            if lit.size and lit.max() > 0:
+                luminance = lit
+        finite = luminance[np.isfinite(luminance)]
+        return float(np.percentile(finite, PERCENTILE)) if finite.size else 0.0
+
+    def auto_exposure(self) -> float:
+        """The exposure that maps the scene's white to 0.8 of the display's, to six digits; 1 for a black image.
+
+        It is rounded so that the number printed repeats the picture exactly.
+        """
+        white = self.white()
+        if white <= 0:
+            white = float(self.xyz[..., 1].max(initial=0.0))
+        if not white > 0 or not math.isfinite(WHITE / white):
+            return 1.0
+        return float(f"{WHITE / white:.6g}")
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        exposure: float | None = None,
+        rgb: str | None = None,
+        bits: int = 8,
+        half: bool = False,
+    ) -> Saved:
+        """Save as EXR (absolute, all layers) or PNG (for a display), atomically.
+
+        Args:
+            path: ends with `.exr` or `.png`.
+            exposure: for PNG, the factor from Y to the display's 0 to 1; default the image's own, else
+                `auto_exposure()`. An EXR is never scaled: it only notes the exposure.
+            rgb: name of an RGB system; default XYZ for EXR and sRGB for PNG.
+            bits: 8 or 16 a channel, for PNG.
+            half: 16-bit floats, for EXR; their largest is 65,504.
+
+        Returns:
+            Path, exposure, whether it was chosen here, and the fraction of pixels clamped.
+
+        Raises:
+            UsageError: the extension, RGB system, exposure or number of bits is not possible.
+            ImageError: the path cannot be written.
+            MachineError: the disk is full or fails; nothing is left behind, and an older file is as it was.
+
+        Example:
+            >>> image.save("room.png", exposure=0.01)     # doctest: +SKIP
+        """
+        path = check_output(path)
+        given = self.exposure if exposure is None else exposure
+        if given is not None and not (given > 0 and math.isfinite(given)):
+            raise UsageError(f"An exposure is a positive number, not {given}.")
+        used = self.auto_exposure() if given is None else float(given)
+        if path.suffix.lower() == ".exr":
+            self._save_exr(path, used, rgb or "XYZ", half)
+            return Saved(path, None, False, None)
+        content, clamped = self._png(used, rgb or "sRGB", bits)
+        output.write_bytes(path, content)
+        return Saved(path, used, given is None, clamped)
+
+    def _png(self, exposure: float, rgb: str, bits: int) -> tuple[bytes, float]:
+        from illuminant import png, rgb_system
+
+        name = str(rgb_system.named(rgb)["name"])
+        text = {
+            "Software": f"illuminant {_version()}",
+            "Description": f"display white is {1 / exposure:.6g} {self.unit} (exposure {exposure:.6g})",
+            "Exposure": f"{exposure:.9g}",
+            "Unit": self.unit,
+            "RGB system": name,
+        }
+        if self.settings:
+            text["Settings"] = json.dumps(self.settings)
+        return png.encode(self.xyz, name, exposure, bits, text)
+
+    def _save_exr(self, path: Path, exposure: float, rgb: str, half: bool) -> None:
+        import numpy as np
+
+        from illuminant import exr
+
+        attributes: dict[str, Any] = {
+            "Software": f"illuminant {_version()}",
+            "unit": self.unit,
+            "exposure": float(exposure),
+            "settings": self.settings,
+        }
+        if self.unit == UNIT:
+            attributes["whiteLuminance"] = 1.0
+        colour = self.xyz
+        chromaticities: tuple[float, ...] = exr.XYZ
+        if rgb.upper() != "XYZ":
+            from illuminant import rgb_system
+
+            system = rgb_system.named(rgb)
+            colour = self.xyz @ np.asarray(system["from_xyz"]).T
+            chromaticities = rgb_system.chromaticities(system)
+            attributes["rgbSystem"] = str(system["name"])
+        contents = exr.Contents(
+            rgb=colour,
+            chromaticities=chromaticities,
+            layers={name: layer for name, layer in self.layers.items() if name != "emission"},
+            wavelengths_nm=self.wavelengths_nm,
+            to_xyz=self.to_xyz,
+            attributes=attributes,
+            half=half,
+        )
+        output.write(path, lambda temporary: exr.write(temporary, contents))
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str]) -> Image:
+        """Open an EXR or a PNG, made here or elsewhere.
+
+        An EXR written here comes back with its layers, lanes, unit, settings and exposure. One from
+        elsewhere is taken to XYZ by its `chromaticities` (Rec.709 without them), and is absolute if it has
+        `whiteLuminance`, else relative. A PNG is decoded by its RGB system (sRGB if it names none) and is
+        relative: the display's white has Y = 1.
+
+        Raises:
+            ImageError: the file is not there, damaged, or no image of these kinds.
+
+        Example:
+            >>> Image.open("room.exr").xyz.shape       # doctest: +SKIP
+            (540, 960, 3)
+        """
+        path = Path(path)
+        if not path.is_file():
+            raise ImageError(f"{path} cannot be read: there is no such file.")
+        if path.suffix.lower() == ".png":
+            from illuminant import png
+
+            xyz, header = png.decode(path)
+            return cls(xyz, unit=RELATIVE, settings=header.settings, exposure=1.0)
+        if path.suffix.lower() == ".exr":
+            return cls._open_exr(path)
+        raise ImageError(f"{path} cannot be read: only .exr and .png are.")
+
+    @classmethod
+    def _open_exr(cls, path: Path) -> Image:
+        import numpy as np
+
+        from illuminant import exr
+
+        contents = exr.read(path)
+        xyz = contents.rgb
+        if not np.allclose(contents.chromaticities, exr.XYZ, atol=1e-6):
+            xyz = xyz @ _to_xyz(contents.chromaticities, path).T
+        found = contents.attributes
+        white = float(found.get("whiteLuminance", 0.0))
+        unit = found.get("unit") or (UNIT if white > 0 else RELATIVE)
+        settings = found.get("settings")
+        return cls(
+            xyz * white if white > 0 and white != 1.0 else xyz,
+            layers=contents.layers,
+            unit=str(unit),
+            settings=settings if isinstance(settings, dict) else {},
+            exposure=float(found["exposure"]) if found.get("exposure") else None,
+            wavelengths_nm=contents.wavelengths_nm,
+            to_xyz=contents.to_xyz,
+        )
+
+    def show(self, *, exposure: float | None = None) -> None:
+        """Show the image: in a notebook as output, else in the system's viewer of PNG files.
+
+        Args:
+            exposure: as for `save`.
+        """
+        content, _ = self._png(exposure or self.exposure or self.auto_exposure(), "sRGB", 8)
+        try:
+            from IPython import get_ipython
+
+            notebook = get_ipython() is not None
+        except ImportError:
+            notebook = False
+        if notebook:
+            from IPython.display import Image as Picture
+            from IPython.display import display
+
+            display(Picture(content))
+            return
+        import tempfile
+        import webbrowser
+
+        handle, name = tempfile.mkstemp(prefix="illuminant-", suffix=".png")
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+        webbrowser.open(Path(name).as_uri())
+
+    def _repr_png_(self) -> bytes:
+        """The image as a PNG, which notebooks show."""
+        return self._png(self.exposure or self.auto_exposure(), "sRGB", 8)[0]
+
+
+def _version() -> str:
+    import illuminant
+
+    return illuminant.__version__
+
+
+def _to_xyz(chromaticities: tuple[float, ...], path: Path) -> Array:
+    """Matrix from an RGB system, stated by x and y of its primaries and white, to XYZ with Y = 1 for (1, 1, 1)."""
+    import numpy as np
+
+    xy = np.asarray(chromaticities, np.float64).reshape(4, 2)
+    # Columns X, Y, Z of each primary with X + Y + Z = 1: a primary may have y = 0, as those of XYZ do.
+    primaries = np.stack([xy[:3, 0], xy[:3, 1], 1.0 - xy[:3].sum(axis=1)])
+    white = np.array([xy[3, 0], xy[3, 1], 1.0 - xy[3].sum()])
+    try:
+        scale = np.linalg.solve(primaries, white / white[1])
+    except np.linalg.LinAlgError as error:
+        raise ImageError(f"{path} cannot be read: its chromaticities lie on one line.") from error
+    return np.asarray(primaries * scale)

@@ -1,0 +1,173 @@
+"""What illuminant found on this machine, and what to do about what it did not find.
+
+Example:
+    >>> facts = machine_facts()              # doctest: +SKIP
+    >>> facts["embree"]["version"]           # doctest: +SKIP
+    '4.4.0'
+"""
+
+from __future__ import annotations
+
+import platform
+import sys
+from pathlib import Path
+from typing import Any
+
+from illuminant import embree as embree_library
+from illuminant import machine, processor
+from illuminant.core import core, embree
+from illuminant.errors import Error, ImageError
+
+__all__ = ["PACKAGES", "image_facts", "machine_facts", "remake"]
+
+# Module, package to install, what for, and whether rendering needs it.
+PACKAGES = (
+    ("numpy", "numpy", "arrays", True),
+    ("OpenImageIO", "openimageio", "EXR and PNG files, textures", True),
+    ("pydantic", "pydantic", "scene files", True),
+    ("trimesh", "trimesh", "OBJ, PLY, STL and GLB meshes", True),
+    ("flip_evaluator", "flip-evaluator", "FLIP in illuminant diff", False),
+    ("matplotlib", "matplotlib", "plots", False),
+)
+
+
+def machine_facts() -> dict[str, Any]:
+    """What was found: versions, core, Embree, processor, memory, packages.
+
+    Nothing that is missing is an error here: its entry has a `remedy` instead, one sentence on what to do.
+    """
+    import illuminant
+
+    features = processor.features()
+    absent = [] if features is None else processor.missing(features)
+    facts: dict[str, Any] = {
+        "illuminant": {"version": illuminant.__version__, "path": str(Path(__file__).parent)},
+        "python": {"version": platform.python_version(), "path": sys.executable},
+        "processor": {
+            "model": processor.model(),
+            "level": f"{processor.LEVEL} {'lacks ' + ', '.join(absent) if absent else 'found'}"
+            if features is not None
+            else "not checked here",
+            "wide": [
+                name
+                for flag, name in (("avx2", "AVX2"), ("fma", "FMA"), ("avx512f", "AVX-512"))
+                if features and flag in features
+            ],
+            "cores": machine.cores(),
+        },
+        "memory": {"total": machine.memory(), "available": machine.memory_available()},
+    }
+    if absent:
+        facts["processor"]["remedy"] = f"illuminant is compiled for {processor.LEVEL} and cannot run here."
+    facts["core"] = _found(lambda: {"version": core().__version__})
+    facts["embree"] = _found(lambda: {"version": embree(), "path": str(embree_library.find())})
+    facts["packages"] = {package: _package(module, package, use) for module, package, use, _ in PACKAGES}
+    return facts
+
+
+def _found(ask: Any) -> dict[str, Any]:
+    try:
+        return dict(ask())
+    except Error as error:
+        return {"version": None, "remedy": str(error)}
+
+
+def _package(module: str, package: str, use: str) -> dict[str, Any]:
+    from importlib.metadata import PackageNotFoundError, version
+    from importlib.util import find_spec
+
+    if find_spec(module) is None:
+        return {"version": None, "for": use, "remedy": f"install it with: pip install {package}"}
+    try:
+        return {"version": version(package), "for": use}
+    except PackageNotFoundError:
+        return {"version": "unknown", "for": use}
+
+
+def image_facts(path: Path) -> dict[str, Any]:
+    """What an image file says of itself, and the command that makes it again.
+
+    Args:
+        path: an EXR or PNG.
+
+    Raises:
+        ImageError: it cannot be read.
+    """
+    if not path.is_file():
+        raise ImageError(f"{path} cannot be read: there is no such file.")
+    if path.suffix.lower() == ".png":
+        return _png_facts(path)
+    if path.suffix.lower() != ".exr":
+        raise ImageError(f"{path} cannot be read: only .exr and .png are.")
+    return _exr_facts(path)
+
+
+def _png_facts(path: Path) -> dict[str, Any]:
+    from illuminant import png
+
+    header = png.read_header(path)
+    facts: dict[str, Any] = {
+        "file": str(path),
+        "size": [header.width, header.height],
+        "format": f"PNG, {header.bits} bits a channel, {header.system or 'sRGB (nothing stated)'}",
+    }
+    if header.text.get("Exposure"):
+        exposure = float(header.text["Exposure"])
+        unit = header.text.get("Unit", "")
+        facts["unit"] = f"1 is {1 / exposure:.6g} {unit}"
+        facts["exposure"] = exposure
+    facts["settings"] = header.settings
+    facts["remake"] = remake(header.settings, path, facts.get("exposure"))
+    return facts
+
+
+def _exr_facts(path: Path) -> dict[str, Any]:
+    from illuminant import exr
+
+    contents = exr.read(path)
+    height, width = contents.rgb.shape[:2]
+    found = contents.attributes
+    xyz = all(abs(a - b) < 1e-6 for a, b in zip(contents.chromaticities, exr.XYZ, strict=True))
+    system = "XYZ" if xyz else found.get("rgbSystem", "RGB, see chromaticities")
+    settings = found.get("settings")
+    settings = settings if isinstance(settings, dict) else {}
+    facts: dict[str, Any] = {
+        "file": str(path),
+        "size": [width, height],
+        "format": f"EXR, {16 if contents.half else 32}-bit floats, {system}",
+        "unit": f"Y in {found['unit']}" if "unit" in found else "not stated",
+        "exposure": found.get("exposure"),
+        "layers": {name: int(layer.shape[2]) for name, layer in contents.layers.items()},
+        "settings": settings,
+    }
+    if contents.wavelengths_nm is not None:
+        facts["wavelengths_nm"] = [float(wavelength) for wavelength in contents.wavelengths_nm]
+    facts["remake"] = remake(settings, path, None)
+    return facts
+
+
+def remake(settings: dict[str, Any], path: Path, exposure: float | None) -> str | None:
+    """The command that makes an image again; None when its header does not say enough.
+
+    Example:
+        >>> from pathlib import Path
+        >>> remake({"scene": "a.toml", "samples": 16, "size": [8, 4], "seed": 0}, Path("a.png"), 0.01)
+        'illuminant render a.toml -o a.png --samples 16 --size 8x4 --seed 0 --exposure 0.01'
+    """
+    import shlex
+
+    if not settings.get("scene"):
+        return None
+    words = ["illuminant", "render", str(settings["scene"]), "-o", str(path)]
+    samples = settings.get("samples")
+    if samples is not None:
+        words += ["--samples", str(max(samples) if isinstance(samples, list) else samples)]
+    if settings.get("image_size") or settings.get("size"):
+        width, height = settings.get("image_size") or settings["size"]
+        words += ["--size", f"{width}x{height}"]
+    for key in ("technique", "illumination", "sampling", "depth", "filter", "seed"):
+        if settings.get(key) is not None:
+            words += [f"--{key}", str(settings[key])]
+    if exposure is not None:
+        words += ["--exposure", f"{exposure:g}"]
+    return shlex.join(words)

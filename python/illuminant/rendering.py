@@ -1,0 +1,527 @@
+"""Rendering a scene to an image, in passes that can be stopped.
+
+Samples are taken in ranges that grow (the first 4 of every pixel, then up to 16, to 64, and 64 more each
+time), so that an image which is stopped early is even. Ranges change no bit of the result: the film adds
+samples in fixed blocks.
+
+When to end:
+
+- `samples=N`: after N samples of every pixel;
+- `time="30s"`: when the time is up. The last ranges are cut to what still fits, by the rate so far;
+- `error="1%"`: when 95 % of the pixels have a standard error of luminance below 1 % of the larger of the
+  pixel's luminance and the image's mean. The error is estimated from two independently scrambled halves of
+  the samples; the difference of two halves is a coarse estimate (one degree of freedom), so variances are
+  averaged over 5 × 5 pixels first, and no decision is taken before 64 samples.
+
+Ctrl-C ends the work between tiles: `render` raises `Interrupted` with the partial image in its attribute
+`image`.
+
+Example:
+    >>> from illuminant import render
+    >>> image = render("scenes/cornell.toml", samples=64, size=(256, 256))    # doctest: +SKIP
+    >>> image.statistics["samples_per_pixel"]                                # doctest: +SKIP
+    64.0
+"""
+
+from __future__ import annotations
+
+import os
+import time as clock
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from illuminant import machine
+from illuminant.core import core, embree
+from illuminant.errors import Interrupted, MachineError, UsageError
+from illuminant.image import Image
+from illuminant.settings import Settings, resolve
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from illuminant.scene import Scene
+
+    Array = NDArray[np.floating[Any]]
+
+__all__ = [
+    "Job",
+    "Progress",
+    "held",
+    "progressive",
+    "render",
+    "replay",
+    "replay_job",
+    "standard_error_fraction",
+]
+
+FIRST_RANGE, GROWTH, LARGEST_RANGE = 4, 4, 64
+LEAST_SAMPLES_FOR_ERROR = 64
+PIXELS_WITHIN_ERROR = 0.95
+MOST_SAMPLES = 2**32 - 1
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a render is.
+
+    Attributes:
+        fraction: of the whole, 0 to 1; None when that cannot be told yet.
+        samples: samples taken so far, mean over pixels.
+        seconds: since the work began.
+        msamples_per_second: rate so far, in millions of samples (paths).
+        seconds_left: estimate; None when that cannot be told yet.
+    """
+
+    fraction: float | None
+    samples: float
+    seconds: float
+    msamples_per_second: float
+    seconds_left: float | None
+
+
+OnProgress = Callable[[Progress], object]
+
+
+def next_range(done: int, limit: int | None) -> int:
+    """End of the range of samples that begins at `done`, when at most `limit` are wanted.
+
+    Example:
+        >>> ends = [0]
+        >>> while ends[-1] < 200:
+        ...     ends.append(next_range(ends[-1], 200))
+        >>> ends
+        [0, 4, 16, 64, 128, 192, 200]
+    """
+    end = FIRST_RANGE if done == 0 else min(done * GROWTH, done + LARGEST_RANGE)
+    return end if limit is None else min(end, limit)
+
+
+def standard_error_fraction(luminance: Array, standard_error: Array, target: float) -> float:
+    """Fraction of the pixels whose standard error of luminance is below `target`.
+
+    Args:
+        luminance: (h, w), in cd/m².
+        standard_error: (h, w), its estimate from two halves.
+        target: relative to the larger of the pixel's luminance and the mean of the image; 0.01 is 1 %.
+
+    Returns:
+        A number from 0 to 1; 0 for a black image, which proves nothing.
+
+    Example:
+        >>> import numpy as np
+        >>> standard_error_fraction(np.ones((4, 4)), np.full((4, 4), 0.009), 0.01)
+        1.0
+    """
+    import numpy as np
+
+    mean = float(luminance.mean())
+    if not mean > 0:
+        return 0.0
+    edge: Literal["reflect", "edge"] = "reflect" if min(luminance.shape) > 2 else "edge"
+    variance = np.pad(np.asarray(standard_error, np.float64) ** 2, 2, mode=edge)
+    for axis in (0, 1):
+        size = variance.shape[axis] - 4
+        variance = np.mean([np.take(variance, range(i, i + size), axis) for i in range(5)], axis=0)
+    within = np.sqrt(variance) < target * np.maximum(luminance, mean)
+    return float(within.mean())
+
+
+class Job:
+    """One scene being rendered with one set of options.
+
+    Args:
+        scene: a `Scene`, or the path of a scene file.
+        options: as `render`.
+
+    Attributes:
+        scene, settings: what is rendered, and how.
+        done: samples of every pixel that complete ranges have taken.
+        interrupted: whether Ctrl-C ended the work.
+        stopped: whether `progress` ended it by returning False.
+    """
+
+    def __init__(self, scene: Scene | str | os.PathLike[str], **options: Any) -> None:
+        self.scene, self.source = _scene(scene)
+        defaults = getattr(self.scene, "render_defaults", {})
+        self.settings = resolve(defaults, **options)
+        if self.settings.size is not None:
+            self.scene = resized(self.scene, self.settings.size)
+        self.exposure: float | None = defaults.get("exposure")
+        self.done = 0
+        self.interrupted = False
+        self.stopped = False
+        width, height = _pixels(self.scene)
+        self.width, self.height = width, height
+        check_memory(self.settings, width * height)
+        embree()
+        self._began = clock.monotonic()
+        try:
+            self.core_scene = self.scene.core()
+            self.core_render = core().Render(self.core_scene, self.settings.to_core())
+        except ValueError as error:
+            if isinstance(error, UsageError) or hasattr(error, "problems"):
+                raise
+            raise UsageError(_sentence(error)) from error
+        except MemoryError as error:
+            raise MachineError("There is not enough memory for this scene and image.") from error
+
+    def warnings(self) -> list[str]:
+        """Sentences on what in these settings does not suit this scene."""
+        return [str(text) for text in self.core_scene.warnings(self.settings.to_core())]
+
+    def spectral_error(self) -> dict[str, Any]:
+        """Error of the spectral sampling against 1 nm, in ΔE00, over what paths can meet in this scene."""
+        return dict(self.core_scene.spectral_error(self.settings.sampling))
+
+    def interrupt(self) -> None:
+        """End the work at the next tile, as Ctrl-C does; for signal handlers."""
+        self.interrupted = True
+
+    def passes(self, progress: OnProgress | None = None) -> Iterator[int]:
+        """Render range after range, and yield the number of samples each pixel then holds.
+
+        Ends when the settings say so, or after Ctrl-C (`interrupted`), or after `progress` returned False
+        (`stopped`).
+        """
+        self._began = clock.monotonic()
+        while not self.interrupted and (end := self._next()) > self.done:
+            if not self._run(end, progress):
+                return
+            self.done = end
+            yield end
+
+    def _next(self) -> int:
+        """End of the next range; `done` when there shall be none."""
+        settings = self.settings
+        end = next_range(self.done, settings.samples)
+        if (
+            settings.error is not None
+            and self.done >= LEAST_SAMPLES_FOR_ERROR
+            and self._precise(settings.error)
+        ):
+            return self.done
+        if settings.time is not None and self.done:
+            elapsed = clock.monotonic() - self._began
+            fits = int((settings.time - elapsed) * self.done / elapsed)
+            # A range that would take less than a twentieth of the time is not worth its last few samples.
+            return min(end, self.done + fits) if fits >= 1 else self.done
+        return min(end, MOST_SAMPLES)
+
+    def _precise(self, target: float) -> bool:
+        luminance = self.core_render.layer("xyz")[..., 1]
+        fraction = standard_error_fraction(luminance, self.core_render.standard_error(), target)
+        return fraction >= PIXELS_WITHIN_ERROR
+
+    def _run(self, end: int, progress: OnProgress | None) -> bool:
+        """Take the samples from `done` to `end`; whether they are complete."""
+
+        def report(part: float) -> bool:
+            if self.interrupted:
+                return False
+            try:
+                if progress is not None and progress(self._progress(end, part)) is False:
+                    self.stopped = True
+                return not self.stopped
+            except KeyboardInterrupt:
+                self.interrupted = True
+                return False
+
+        try:
+            complete = bool(self.core_render.run(self.done, end, report))
+        except KeyboardInterrupt:
+            complete, self.interrupted = False, True
+        except MemoryError as error:
+            raise MachineError("There is not enough memory for this image.") from error
+        if not complete and not self.stopped:
+            self.interrupted = True
+        return complete
+
+    def _progress(self, end: int, part: float) -> Progress:
+        seconds = clock.monotonic() - self._began
+        samples = self.done + (end - self.done) * part
+        rate = samples * self.width * self.height / max(seconds, 1e-9) / 1e6
+        settings = self.settings
+        parts = []
+        if settings.samples is not None:
+            parts.append(samples / settings.samples)
+        if settings.time is not None:
+            parts.append(seconds / settings.time)
+        fraction = (
+            min(1.0, max(parts)) if parts and (settings.error is None or settings.time is not None) else None
+        )
+        left = seconds * (1 - fraction) / fraction if fraction and seconds > 0.3 else None
+        return Progress(fraction, samples, seconds, rate, left)
+
+    def image(self) -> Image:
+        """What is done so far, as an image; it stands on its own and may be kept."""
+        import numpy as np
+
+        render = self.core_render
+        layers = {name: np.asarray(render.layer(name)) for name in render.layers() if name != "xyz"}
+        held = np.asarray(render.samples())
+        if "samples" in self.settings.layers:
+            layers["samples"] = held[..., None]
+        seconds = clock.monotonic() - self._began
+        statistics = dict(render.statistics())
+        statistics |= {
+            "wall_seconds": seconds,
+            "samples_per_pixel": float(held.mean()),
+            "least_samples": int(held.min()),
+            "most_samples": int(held.max()),
+            "peak_memory": machine.peak_memory(),
+        }
+        spectra = "spectra" in layers
+        return Image(
+            np.asarray(render.layer("xyz")),
+            layers=layers,
+            settings=self._header(int(held.min()), int(held.max()), statistics),
+            exposure=self.exposure,
+            statistics=statistics,
+            wavelengths_nm=np.asarray(render.wavelengths()) if spectra else None,
+            to_xyz=np.asarray(render.to_xyz()) if spectra else None,
+        )
+
+    def _header(self, least: int, most: int, statistics: dict[str, Any]) -> dict[str, Any]:
+        """How the image was made, with nothing in it that changes from run to run of the same image."""
+        import illuminant
+
+        return {
+            "version": illuminant.__version__,
+            "scene": self.source,
+            "scene_hash": self.scene.hash(),
+            "size": [self.width, self.height],
+            "samples": most if least == most else [least, most],
+            **self.settings.to_header(),
+            "dropped": int(statistics.get("dropped", 0)),
+        }
+
+
+def _scene(scene: Scene | str | os.PathLike[str]) -> tuple[Scene, str]:
+    """The scene, and the path that names it in a header."""
+    from illuminant.scene import Scene
+
+    if isinstance(scene, Scene):
+        return scene, str(getattr(scene, "path", None) or "")
+    return Scene.load(scene), os.fspath(scene)
+
+
+def _pixels(scene: Scene) -> tuple[int, int]:
+    """Width and height of what is rendered: the crop, or the whole image."""
+    camera = scene.description["camera"]
+    crop = camera.get("crop")
+    if crop:
+        return int(crop[2] - crop[0]), int(crop[3] - crop[1])
+    return int(camera["size"][0]), int(camera["size"][1])
+
+
+def resized(scene: Scene, size: tuple[int, int]) -> Scene:
+    """The same scene with another image size.
+
+    Raises:
+        UsageError: the scene has a crop that the new image does not hold.
+    """
+    camera = dict(scene.description["camera"])
+    crop = camera.get("crop")
+    if crop and (crop[2] > size[0] or crop[3] > size[1]):
+        raise UsageError(
+            f"--size {size[0]}x{size[1]}: the scene's crop ends at {crop[2]},{crop[3]}, outside this image."
+        )
+    camera["size"] = list(size)
+    return scene.replace(camera=camera)
+
+
+def memory_needed(settings: Settings, pixels: int) -> int:
+    """Bytes that the film and its image take, without the scene; an estimate, rather high.
+
+    Example:
+        >>> memory_needed(Settings(), 960 * 540) < 200e6
+        True
+    """
+    lanes = 401 if settings.sampling == "1nm" else 32
+    values = 3 * settings.replicates + 3
+    values += 7 * len(settings.layers)
+    values += lanes if settings.keep_spectra else 0
+    values += 12 if settings.lamps else 0
+    return pixels * values * 8 * 3
+
+
+def check_memory(settings: Settings, pixels: int) -> None:
+    """Refuse an image that does not fit into the memory that is free.
+
+    Raises:
+        MachineError: one sentence with both amounts.
+    """
+    needed, free = memory_needed(settings, pixels), machine.memory_available()
+    if free is not None and needed > free:
+        raise MachineError(
+            f"An image of {pixels:,} pixels with these layers needs about {machine.size(needed)} of memory, "
+            f"and {machine.size(free)} are free: choose a smaller --size or fewer layers."
+        )
+
+
+def _sentence(error: Exception) -> str:
+    return str(error).strip().rstrip(".") + "."
+
+
+def progressive(
+    scene: Scene | str | os.PathLike[str], *, progress: OnProgress | None = None, **options: Any
+) -> Iterator[Image]:
+    """Render a scene and yield the image after each range of samples; the last one is the whole.
+
+    Args:
+        scene: a `Scene`, or the path of a scene file.
+        progress: as for `render`.
+        options: as for `render`.
+
+    Yields:
+        Images that hold 4, 16, 64, 128, ... samples of each pixel. After Ctrl-C the last one is what is
+        done.
+
+    Example:
+        >>> for image in progressive("scenes/cornell.toml", samples=256):     # doctest: +SKIP
+        ...     image.save("preview.png")
+    """
+    job = Job(scene, **options)
+    for _ in job.passes(progress):
+        yield job.image()
+    if job.interrupted or job.stopped:
+        yield job.image()
+
+
+def render(
+    scene: Scene | str | os.PathLike[str],
+    *,
+    technique: str | None = None,
+    illumination: str | None = None,
+    sampling: str | None = None,
+    samples: int | None = None,
+    size: str | tuple[int, int] | None = None,
+    depth: int | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+    filter: str | tuple[str, float] | None = None,
+    layers: str | tuple[str, ...] | list[str] | None = None,
+    keep_spectra: bool | None = None,
+    lamps: bool | None = None,
+    time: str | float | None = None,
+    error: str | float | None = None,
+    progress: OnProgress | None = None,
+    on_partial: Callable[[Image], object] | None = None,
+) -> Image:
+    """Render a scene.
+
+    Options that are not given are the scene's own (its table `[render]`), else the defaults named here.
+
+    Args:
+        scene: a `Scene`, or the path of a scene file.
+        technique: how light is followed; default `path`.
+        illumination: what a surface does; default `general`.
+        sampling: how wavelengths are carried; default `uniform:32`; `1nm` is the reference.
+        samples: paths for each pixel; default 64, or no limit with `time` or `error`.
+        size: `(width, height)` in pixels, or `"960x540"`; default the camera's.
+        depth: largest number of bounces; default no limit.
+        seed: of the random numbers; default 0. The same seed gives the same bits, whatever the number of
+            threads.
+        threads: default 0, one for each processor.
+        filter: reconstruction filter and its radius in pixels; default `("gaussian", 1.5)`.
+        layers: auxiliary images: `depth`, `normal`, `albedo`, `samples`.
+        keep_spectra: keep the spectral lanes of every pixel as the layer `spectra`.
+        lamps: a layer `lamp:NAME` for the light of each lamp.
+        time: end when this time is up: seconds, or `"30s"`, `"5m"`.
+        error: end at this relative standard error: a fraction, or `"1%"`.
+        progress: called about ten times a second with a `Progress`; returning False ends the render with what
+            is done.
+        on_partial: called after each range with the image so far.
+
+    Returns:
+        The image, in absolute XYZ, with its layers, settings and statistics.
+
+    Raises:
+        SceneError: the scene has mistakes; all of them are in `problems`.
+        UsageError: an option cannot be, or does not go with the scene.
+        MachineError: there is not enough memory, or no Embree.
+        Interrupted: Ctrl-C; the attribute `image` holds what was done.
+
+    Example:
+        >>> image = render("scenes/cornell.toml", samples=256, layers="depth,normal")     # doctest: +SKIP
+        >>> image.layers["depth"].shape                                                   # doctest: +SKIP
+        (512, 512, 1)
+    """
+    job = Job(
+        scene,
+        technique=technique,
+        illumination=illumination,
+        sampling=sampling,
+        samples=samples,
+        size=size,
+        depth=depth,
+        seed=seed,
+        threads=threads,
+        filter=filter,
+        layers=layers,
+        keep_spectra=keep_spectra,
+        lamps=lamps,
+        time=time,
+        error=error,
+    )
+    for _ in job.passes(progress):
+        if on_partial is not None:
+            on_partial(job.image())
+    image = job.image()
+    if job.interrupted:
+        stop = Interrupted("The render was interrupted; " + held(image) + ".")
+        stop.image = image  # type: ignore[attr-defined]
+        raise stop
+    return image
+
+
+def held(image: Image) -> str:
+    """How many samples an image holds, as part of a sentence.
+
+    Example:
+        >>> import numpy as np
+        >>> held(Image(np.zeros((1, 1, 3)), statistics={"least_samples": 16, "most_samples": 64,
+        ...                                             "samples_per_pixel": 20.0}))
+        'every pixel holds 16 samples or more, 20.0 on average'
+    """
+    least, most = int(image.statistics["least_samples"]), int(image.statistics["most_samples"])
+    mean = float(image.statistics["samples_per_pixel"])
+    if least == most:
+        return f"every pixel holds {least} samples"
+    if least == 0:
+        return f"some pixels hold no sample yet and are black, {mean:.1f} on average"
+    return f"every pixel holds {least} samples or more, {mean:.1f} on average"
+
+
+def replay(
+    scene: Scene | str | os.PathLike[str], pixel: tuple[int, int], sample: int, **options: Any
+) -> list[dict[str, Any]]:
+    """Follow one path again, with its vertices.
+
+    Args:
+        scene: a `Scene`, or the path of a scene file.
+        pixel: column and row, from the top left.
+        sample: number of the sample, from 0.
+        options: as for `render`; those that change random numbers (seed, size, filter, technique, error) must
+            be the same.
+
+    Returns:
+        The vertices of the path in order, and its value, as the core gives them.
+
+    Raises:
+        UsageError: the pixel lies outside the image, or the sample is negative.
+    """
+    return replay_job(Job(scene, **options), pixel, sample)
+
+
+def replay_job(job: Job, pixel: tuple[int, int], sample: int) -> list[dict[str, Any]]:
+    """As `replay`, for a job that exists already."""
+    x, y = pixel
+    size = job.scene.description["camera"]["size"]
+    if not (0 <= x < size[0] and 0 <= y < size[1]):
+        raise UsageError(f"--pixel {x},{y}: the image has {size[0]}x{size[1]} pixels, counted from 0,0.")
+    if not 0 <= sample <= MOST_SAMPLES:
+        raise UsageError(f"--sample {sample}: expected a whole number from 0.")
+    return [dict(vertex) for vertex in job.core_render.replay(x, y, sample)]

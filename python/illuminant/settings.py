@@ -1,0 +1,270 @@
+"""The options of a render, checked and complete.
+
+One set of words serves the command line, Python and the table `[render]` of a scene. An option that was
+given wins over the scene's own, and that over the default. Words of the command line (`"960x540"`, `"30s"`,
+`"1%"`, `"gaussian:1.5"`) and plain values (`(960, 540)`, `30.0`, `0.01`, `("gaussian", 1.5)`) mean the same
+everywhere.
+
+Example:
+    >>> settings = resolve({"samples": 256, "seed": 3}, samples=16, size="320x180")
+    >>> settings.samples, settings.seed, settings.size
+    (16, 3, (320, 180))
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+from illuminant.errors import UsageError
+
+__all__ = ["LAYERS", "Settings", "duration", "filter_of", "fraction", "pixel", "resolve", "size_of"]
+
+LAYERS = ("depth", "normal", "albedo", "samples")
+"""Auxiliary images that can be asked for by name."""
+
+FILTERS = ("gaussian", "box", "tent")
+
+DEFAULT_SAMPLES = 64
+
+_UNITS = {"": 1.0, "s": 1.0, "m": 60.0, "min": 60.0, "h": 3600.0}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """Everything about a render that is not the scene.
+
+    Attributes:
+        technique: how light is followed.
+        illumination: what a surface does.
+        sampling: how wavelengths are carried.
+        samples: paths for each pixel; None while `time` or `error` decides.
+        size: width and height in pixels; None keeps the camera's.
+        depth: largest number of bounces; None for no limit.
+        seed: of the random numbers.
+        threads: 0 for one a processor. Changes no bit of the image.
+        filter: kind and radius in pixels of the reconstruction filter.
+        layers: auxiliary images (`LAYERS`).
+        keep_spectra: whether the lanes are kept.
+        lamps: whether there is a layer for each lamp.
+        time: seconds after which to end, or None.
+        error: relative standard error at which to end (0.01 is 1 %), or None.
+    """
+
+    technique: str = "path"
+    illumination: str = "general"
+    sampling: str = "uniform:32"
+    samples: int | None = DEFAULT_SAMPLES
+    size: tuple[int, int] | None = None
+    depth: int | None = None
+    seed: int = 0
+    threads: int = 0
+    filter: tuple[str, float] = ("gaussian", 1.5)
+    layers: tuple[str, ...] = ()
+    keep_spectra: bool = False
+    lamps: bool = False
+    time: float | None = None
+    error: float | None = None
+
+    @property
+    def replicates(self) -> int:
+        """Independently scrambled parts of the samples: two when their difference must tell the error."""
+        return 2 if self.error is not None else 1
+
+    def to_core(self) -> str:
+        """The settings as the core takes them (JSON)."""
+        layers = [name for name in self.layers if name != "samples"]
+        layers += ["spectra"] * self.keep_spectra + ["lamps"] * self.lamps
+        kind, radius = self.filter
+        return json.dumps(
+            {
+                "technique": self.technique,
+                "illumination": self.illumination,
+                "sampling": self.sampling,
+                "depth": self.depth,
+                "seed": self.seed,
+                "threads": self.threads,
+                "filter": {"kind": kind, "radius": radius},
+                "layers": layers,
+                "replicates": self.replicates,
+            }
+        )
+
+    def to_header(self) -> dict[str, Any]:
+        """The settings that change a number of the image, as the header of its file states them."""
+        kind, radius = self.filter
+        return {
+            "technique": self.technique,
+            "illumination": self.illumination,
+            "sampling": self.sampling,
+            "depth": self.depth,
+            "seed": self.seed,
+            "filter": f"{kind}:{radius:g}",
+            "replicates": self.replicates,
+        }
+
+
+def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings:
+    """Settings from the options given, then the scene's `[render]` table, then the defaults.
+
+    Args:
+        defaults: the scene's own; keys that are no setting (exposure, say) are passed over.
+        given: options by name; None means not given.
+
+    Raises:
+        UsageError: an option is unknown, or its value cannot be; the sentence names it.
+    """
+    names = {field.name for field in fields(Settings)}
+    unknown = [name for name in given if name not in names]
+    if unknown:
+        raise UsageError(f"There is no render option {unknown[0]!r}: known are {', '.join(sorted(names))}.")
+    chosen = {name: value for name, value in (defaults or {}).items() if name in names and value is not None}
+    limit = given.get("time") is not None or given.get("error") is not None
+    if limit and given.get("samples") is None:
+        chosen["samples"] = None
+    chosen |= {name: value for name, value in given.items() if value is not None}
+    if "filter" in chosen:
+        chosen["filter"] = filter_of(chosen["filter"])
+    if "size" in chosen:
+        chosen["size"] = size_of(chosen["size"])
+    if "time" in chosen:
+        chosen["time"] = duration(chosen["time"])
+    if "error" in chosen:
+        chosen["error"] = fraction(chosen["error"])
+    if "layers" in chosen:
+        chosen["layers"] = _layers(chosen["layers"])
+    for name, least, most in (
+        ("samples", 1, 2**32 - 1),
+        ("depth", 0, 2**16 - 1),
+        ("seed", 0, 2**63 - 1),
+        ("threads", 0, 4096),
+    ):
+        if chosen.get(name) is not None:
+            chosen[name] = _whole(name, chosen[name], least, most)
+    return Settings(**chosen)
+
+
+def _whole(name: str, value: Any, least: int, most: int) -> int:
+    try:
+        number = int(value)
+    except (TypeError, ValueError, OverflowError):
+        number = least - 1
+    if isinstance(value, (bool, str)) or number != value or not least <= number <= most:
+        raise UsageError(f"--{name} {value}: expected a whole number from {least} to {most}.")
+    return number
+
+
+def size_of(value: str | Sequence[int]) -> tuple[int, int]:
+    """Width and height from `960x540` or `(960, 540)`.
+
+    Raises:
+        UsageError: it is neither, or the image would be too large.
+
+    Example:
+        >>> size_of("960x540")
+        (960, 540)
+    """
+    from illuminant.schema import MAX_PIXELS
+
+    text = value if isinstance(value, str) else "x".join(str(side) for side in value)
+    match = re.fullmatch(r"\s*(\d{1,30})\s*[xX×]\s*(\d{1,30})\s*", text)
+    width, height = (int(match[1]), int(match[2])) if match else (0, 0)
+    if width < 1 or height < 1:
+        raise UsageError(f"--size {text}: expected width and height in pixels, such as 960x540.")
+    if width * height > MAX_PIXELS:
+        raise UsageError(
+            f"--size {text}: that is {width * height:.3g} pixels, and an image has at most {MAX_PIXELS:,} "
+            "(8192x8192, say)."
+        )
+    return width, height
+
+
+def duration(value: str | float) -> float:
+    """Seconds from `30`, `30s`, `5m` or `1.5h`.
+
+    Raises:
+        UsageError: it is no such time, or not above zero.
+
+    Example:
+        >>> duration("5m"), duration("90s"), duration(2)
+        (300.0, 90.0, 2.0)
+    """
+    match = re.fullmatch(r"\s*([0-9.eE+-]+)\s*(s|m|min|h|)\s*", str(value))
+    try:
+        seconds = float(match[1]) * _UNITS[match[2]] if match else math.nan
+    except ValueError:
+        seconds = math.nan
+    if not (seconds > 0 and math.isfinite(seconds)):
+        raise UsageError(f"--time {value}: expected a time such as 30s, 5m or 1.5h.")
+    return seconds
+
+
+def fraction(value: str | float) -> float:
+    """A relative error from `1%` or `0.01`.
+
+    Raises:
+        UsageError: it is no number, or not between 0 and 1.
+
+    Example:
+        >>> fraction("1%"), fraction(0.02)
+        (0.01, 0.02)
+    """
+    text = str(value).strip()
+    try:
+        number = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    except ValueError:
+        number = math.nan
+    if not 0 < number < 1:
+        raise UsageError(f"--error {value}: expected a relative error such as 1% or 0.01.")
+    return number
+
+
+def filter_of(value: str | Sequence[Any] | Mapping[str, Any]) -> tuple[str, float]:
+    """Kind and radius in pixels from `gaussian:1.5`, `box`, `("tent", 1.0)` or the scene's `{ kind, radius }`.
+
+    Raises:
+        UsageError: there is no such filter, or the radius is not from above 0 to 16.
+
+    Example:
+        >>> filter_of("box"), filter_of("gaussian:2")
+        (('box', 0.5), ('gaussian', 2.0))
+    """
+    if isinstance(value, Mapping):
+        value = (value["kind"], value.get("radius", 1.5))
+    kind, _, text = value.partition(":") if isinstance(value, str) else (str(value[0]), ":", str(value[1]))
+    try:
+        radius = float(text) if text else {"box": 0.5, "tent": 1.0}.get(kind, 1.5)
+    except ValueError:
+        radius = math.nan
+    if kind not in FILTERS or not 0 < radius <= 16:
+        raise UsageError(
+            f"--filter {kind}{':' if text else ''}{text}: expected gaussian, box or tent, with a radius "
+            "in pixels if you like, such as gaussian:1.5."
+        )
+    return kind, radius
+
+
+def pixel(value: str | Sequence[int]) -> tuple[int, int]:
+    """Column and row, from the top left, from `120,80` or `(120, 80)`.
+
+    Raises:
+        UsageError: it is neither.
+    """
+    text = value if isinstance(value, str) else ",".join(str(part) for part in value)
+    match = re.fullmatch(r"\s*(\d{1,9})\s*,\s*(\d{1,9})\s*", text)
+    if match is None:
+        raise UsageError(f"--pixel {text}: expected column and row from the top left, such as 120,80.")
+    return int(match[1]), int(match[2])
+
+
+def _layers(value: str | Sequence[str]) -> tuple[str, ...]:
+    names = value.split(",") if isinstance(value, str) else list(value)
+    names = [name.strip() for name in names if name.strip()]
+    for name in names:
+        if name not in LAYERS:
+            raise UsageError(f"--layers {name}: there is no such layer; known are {', '.join(LAYERS)}.")
+    return tuple(dict.fromkeys(names))
