@@ -1,9 +1,10 @@
 """How noisy an image is, and what it cost: the two numbers that benchmarks compare.
 
-relative MSE = mean over pixels and over X, Y, Z of (I - R)^2 / (R^2 + 0.01 mean(R)^2), with R the reference and mean(R)
-its mean in that channel.  The second term keeps pixels that are nearly black from deciding alone; a pixel of the mean
-brightness is hardly touched by it.  efficiency = 1 / (relative MSE x seconds): it does not depend on the number of
-samples while the error falls with its root, and it is twice as high for a renderer that needs half the time.
+relative MSE = mean over pixels and over X, Y, Z of (I - R)^2 / (R^2 + 0.01 mean(R)^2), with R the reference
+and mean(R) its mean in that channel. The second term keeps pixels that are nearly black from deciding alone;
+a pixel of the mean brightness is hardly touched by it. efficiency = 1 / (relative MSE x seconds): it does not
+depend on the number of samples while the error falls with its root, and it is twice as high for a renderer
+that needs half the time.
 """
 
 from __future__ import annotations

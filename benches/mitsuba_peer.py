@@ -1,22 +1,25 @@
-"""The peer: Mitsuba 3 renders a scene that `export_scene.py` wrote (runs in `.venv-bench`, made by `peers.sh`).
+"""The peer: Mitsuba 3 renders a scene that `export_scene.py` wrote (runs in `.venv-bench`).
 
-    DRJIT_LIBLLVM_PATH=... .venv-bench/bin/python benches/mitsuba_peer.py cornell.json --variant llvm_ad_spectral
+    .venv-bench/bin/python benches/mitsuba_peer.py scene.json --variant llvm_ad_spectral
 
-It takes the very same numbers as illuminant: triangles in world space, the camera, and every curve at 1 nm between
-the ends of the scene's spectral range (zero outside it).  Only what both can say is used: diffuse materials and area
-lights of absolute spectral radiance.
+It takes the very same numbers as illuminant: triangles in world space, the camera, and every curve at 1 nm
+between the ends of the scene's spectral range (zero outside it). Only what both can say is used: diffuse
+materials and area lights of absolute spectral radiance.
 
 Conventions of Mitsuba 3 and what is done about them:
 
-* Its spectral film holds XYZ = (integral of L * cmf) / K with K = 106.7502593994140625, the integral of its own
-  5 nm table of y-bar (`MI_CIE_Y_NORMALIZATION` in `include/mitsuba/core/spectrum.h`); illuminant's images hold
-  683 lm/W times the integral.  Hence absolute XYZ = 683 * 106.7502593994140625 * film: derived, never fitted.
-* Its `max_depth` counts the edges of a path, camera ray included: 2 is direct light.  `--depth` here counts the
-  same way.
+* Its spectral film holds XYZ = (integral of L * cmf) / K with K = 106.7502593994140625, the integral of its
+  own 5 nm table of y-bar (`MI_CIE_Y_NORMALIZATION` in `include/mitsuba/core/spectrum.h`); illuminant's images
+  hold 683 lm/W times the integral. Hence absolute XYZ = 683 * 106.7502593994140625 * film: derived, never
+  fitted.
+* Its `max_depth` counts the edges of a path, camera ray included: 2 is direct light. `--depth` here counts
+  the same way.
 * Russian roulette starts at `rr_depth` (default 5) with probability min(0.95, largest throughput).
-* `llvm_ad_rgb` cannot carry a curve: colours are made by `mitsuba.spectrum_list_to_srgb`, as its own scene loader
-  does (reflectances under D65, radiance unbounded).  Its image is another image; only its speed and noise compare.
-* Triangle meshes, since a mesh is the fastest shape that it has (its `rectangle` is a callback inside Embree).
+* `llvm_ad_rgb` cannot carry a curve: colours are made by `mitsuba.spectrum_list_to_srgb`, as its own scene
+  loader does (reflectances under D65, radiance unbounded). Its image is another image; only its speed and
+  noise compare.
+* Triangle meshes, since a mesh is the fastest shape that it has (its `rectangle` is a callback inside
+  Embree).
 """
 
 from __future__ import annotations
@@ -31,6 +34,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
 from renderer_process import serve
 
 # 683 lm/W times the integral of y-bar by which Mitsuba divides; see the top of this file.

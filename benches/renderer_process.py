@@ -1,14 +1,15 @@
 """A renderer as a process of its own, and the line protocol by which a benchmark drives it.
 
-Two renderers that are compared must not share an interpreter (Mitsuba pins its own NumPy and its own threads), and
-their runs are interleaved, A B A B, so that a slow minute of the machine falls on both.  So each lives in a process
-that stays warm: it loads the scene once, then renders on request.  Both ends of that conversation are in this file;
-it needs the standard library only, because it is imported in two environments.
+Two renderers that are compared must not share an interpreter (Mitsuba pins its own NumPy and its own
+threads), and their runs are interleaved, A B A B, so that a slow minute of the machine falls on both. So each
+lives in a process that stays warm: it loads the scene once, then renders on request. Both ends of that
+conversation are in this file; it needs the standard library only, because it is imported in two environments.
 
-Protocol: one JSON object a line.  The child opens with ``{"ready": true, ...}`` (name, version, size of the image).
-A request is ``{"seed": int, "samples": int, "output": path or null}``; the answer holds ``seconds`` (rendering only:
-no start, no scene, no compilation), ``peak_bytes`` of the process so far, whatever else the renderer counts, and, when
-``output`` was given, the image is there as ``.npy``, (height, width, 3), float64, absolute XYZ (Y in cd/m2).
+Protocol: one JSON object a line. The child opens with ``{"ready": true, ...}`` (name, version, size of the
+image). A request is ``{"seed": int, "samples": int, "output": path or null}``; the answer holds ``seconds``
+(rendering only: no start, no scene, no compilation), ``peak_bytes`` of the process so far, whatever else the
+renderer counts, and, when ``output`` was given, the image is there as ``.npy``, (height, width, 3), float64,
+absolute XYZ (Y in cd/m2).
 """
 
 from __future__ import annotations
