@@ -8,7 +8,8 @@ sentence and ends with `exit_code`.
 
 Example:
     >>> from illuminant.errors import Problem, SceneError
-    >>> error = SceneError([Problem("a.toml", 3, "camera", "eyes", "is not a key of this table", 'did you mean "eye"?')])
+    >>> problem = Problem("a.toml", 3, "camera", "eyes", "is not a key of this table", 'did you mean "eye"?')
+    >>> error = SceneError([problem])
     >>> print(error)
     a.toml:3: [camera] eyes: is not a key of this table (did you mean "eye"?)
     >>> error.problems[0].key
@@ -17,7 +18,8 @@ Example:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import difflib
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 __all__ = [
@@ -29,7 +31,25 @@ __all__ = [
     "Problem",
     "SceneError",
     "UsageError",
+    "suggestion",
 ]
+
+
+def suggestion(word: str, words: Iterable[str]) -> str:
+    """A near-miss hint for a name that does not exist, or "" when nothing is near.
+
+    Args:
+        word: what was written.
+        words: what could have been meant.
+
+    Example:
+        >>> suggestion("golld", ["gold", "silver"])
+        'did you mean "gold"?'
+    """
+    words = [str(known) for known in words]
+    folded = {known.casefold(): known for known in reversed(words)}
+    near = difflib.get_close_matches(str(word).casefold(), list(folded), n=1, cutoff=0.6)
+    return f'did you mean "{folded[near[0]]}"?' if near else ""
 
 
 class Error(Exception):

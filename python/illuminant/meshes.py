@@ -1,0 +1,197 @@
+"""Meshes from files: OBJ, PLY, STL, GLB and glTF, also compressed by gzip (`.ply.gz`).
+
+trimesh reads them (it is imported only when such a file is read, which takes seconds). It checks nothing, so all is
+checked here: a mesh that comes back has faces, finite vertices, vertex numbers in range and no face without area.
+All geometries of a file become one mesh, each under its transform in the file. Vertex normals and texture
+coordinates are kept where every part has them; materials, colours and textures of the file are not read.
+
+A GLB or glTF file is in metres with y up, by its standard. The other formats do not say: their unit is the scene's
+`length_unit` and their up axis the scene's `up`, unless the scene file states `unit` or `up` for the mesh.
+
+Example:
+    >>> from illuminant.meshes import read
+    >>> mesh = read("scenes/meshes/bunny.ply.gz")          # doctest: +SKIP
+    >>> mesh.positions.shape, mesh.indices.shape           # doctest: +SKIP
+    ((2503, 3), (4968, 3))
+"""
+
+from __future__ import annotations
+
+import gzip
+import io
+import os
+import zlib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from illuminant.errors import DataError
+from illuminant.shapes import Mesh
+
+if TYPE_CHECKING:
+    import numpy as np
+
+__all__ = ["FORMATS", "MAX_BYTES", "format_of", "read"]
+
+FORMATS = ("obj", "ply", "stl", "glb", "gltf")
+"""The mesh formats that are read."""
+
+MAX_BYTES = 4_000_000_000
+"""The largest mesh file, after decompression."""
+
+
+def format_of(path: str | os.PathLike[str]) -> str:
+    """The format of a mesh file by its name.
+
+    Raises:
+        DataError: it is none of `FORMATS`.
+    """
+    name = Path(path).name.lower().removesuffix(".gz")
+    suffix = name.rpartition(".")[2] if "." in name else ""
+    if suffix not in FORMATS:
+        wanted = ", ".join(f".{known}" for known in FORMATS)
+        raise DataError(
+            f"is not a mesh file that can be read; expected {wanted}, or one of these with .gz", str(path)
+        )
+    return suffix
+
+
+def read(path: str | os.PathLike[str], zero_area: str = "error") -> Mesh:
+    """One mesh of all that is in a file, in the file's own unit and axes.
+
+    Args:
+        path: a file in one of `FORMATS`, or one of these compressed by gzip.
+        zero_area: "error" refuses faces without area, "remove" leaves them out.
+
+    Returns:
+        The mesh, checked; it has normals or texture coordinates when every part of the file has them.
+
+    Raises:
+        DataError: the file is missing, unreadable, damaged or empty, or its mesh is not usable; says what and where.
+    """
+    path = Path(path)
+    kind = format_of(path)
+    try:
+        parts = _parts(_bytes(path), kind, path.parent)
+        mesh = _joined(parts)
+    except DataError as error:
+        raise DataError(error.message, str(path)) from None
+    except MemoryError:
+        raise DataError("is too large for the memory of this machine", str(path)) from None
+    except IndexError as error:
+        raise DataError(
+            f"a face refers to a vertex that the file does not hold ({_clause(error)})", str(path)
+        ) from None
+    except Exception as error:  # whatever a damaged file makes of the reader
+        raise DataError(f"cannot be read as {kind.upper()} ({_clause(error)})", str(path)) from None
+    try:
+        return mesh.checked(zero_area)
+    except DataError as error:
+        raise DataError(error.message, str(path)) from None
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        data = path.read_bytes()
+        if path.name.lower().endswith(".gz"):
+            with gzip.GzipFile(fileobj=io.BytesIO(data)) as stream:
+                data = stream.read(MAX_BYTES + 1)
+    except FileNotFoundError:
+        raise DataError("there is no such file") from None
+    except (EOFError, gzip.BadGzipFile, zlib.error) as error:
+        raise DataError(f"is not compressed by gzip, or is damaged ({_clause(error)})") from None
+    except OSError as error:
+        raise DataError(f"cannot be read ({(error.strerror or 'unknown reason').lower()})") from None
+    if len(data) > MAX_BYTES:
+        raise DataError(f"is larger than {MAX_BYTES / 1e9:g} GB")
+    if not data.strip():
+        raise DataError("is an empty file")
+    return data
+
+
+def _parts(data: bytes, kind: str, folder: Path) -> list[Mesh]:
+    import logging
+
+    import numpy as np
+    import trimesh
+    from trimesh.resolvers import FilePathResolver
+
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL)
+    options: dict[str, Any] = {"process": False, "maintain_order": False}
+    if kind == "obj":
+        options["skip_materials"] = True
+    if kind == "gltf":
+        options["resolver"] = FilePathResolver(str(folder))
+    with np.errstate(all="ignore"):
+        scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, **options)
+        parts = []
+        for node in scene.graph.nodes_geometry:
+            matrix, name = scene.graph[node]
+            geometry = scene.geometry[name]
+            if not isinstance(geometry, trimesh.Trimesh):
+                continue
+            parts.append(_part(geometry, np.array(matrix, dtype=np.float64)))
+    return parts
+
+
+def _part(geometry: Any, matrix: np.ndarray) -> Mesh:
+    import numpy as np
+
+    normals = geometry._cache.cache.get("vertex_normals")  # only those of the file: asking would make them
+    uvs = getattr(geometry.visual, "uv", None)
+    positions = np.array(geometry.vertices, dtype=np.float64)
+    mesh = Mesh(
+        positions,
+        np.array(geometry.faces, dtype=np.int64).reshape(-1, 3),
+        None if normals is None or len(normals) != len(positions) else np.array(normals, dtype=np.float64),
+        None if uvs is None or len(uvs) != len(positions) else np.array(uvs, dtype=np.float64)[:, :2],
+    )
+    if mesh.normals is not None:
+        mesh = _with_unit_normals(mesh)
+    linear = matrix[:3, :3]
+    if np.array_equal(matrix, np.eye(4)):
+        return mesh
+    determinant = np.linalg.det(linear)
+    if not np.isfinite(matrix).all() or determinant == 0:
+        raise DataError("a part has a transform that flattens it to nothing")
+    moved = mesh.transformed(linear)
+    moved = Mesh(moved.positions + matrix[:3, 3], moved.indices, moved.normals, moved.uvs)
+    return moved.reversed() if determinant < 0 else moved
+
+
+def _with_unit_normals(mesh: Mesh) -> Mesh:
+    """The mesh with normals of unit length; one of length zero is made from the faces around its vertex."""
+    import numpy as np
+
+    assert mesh.normals is not None
+    length = np.linalg.norm(mesh.normals, axis=1, keepdims=True)
+    normals = mesh.normals / np.where(length > 0, length, 1.0)
+    lost = np.flatnonzero(length[:, 0] == 0)
+    if len(lost):
+        made = mesh.smoothed().normals
+        assert made is not None
+        normals[lost] = made[lost]
+    return Mesh(mesh.positions, mesh.indices, normals, mesh.uvs)
+
+
+def _joined(parts: list[Mesh]) -> Mesh:
+    import numpy as np
+
+    if not parts:
+        raise DataError("the mesh is empty (it has no faces)")
+    if len(parts) == 1:
+        return parts[0]
+    offsets = np.cumsum([0] + [len(part.positions) for part in parts])
+    normals = [part.normals for part in parts if part.normals is not None]
+    uvs = [part.uvs for part in parts if part.uvs is not None]
+    return Mesh(
+        np.concatenate([part.positions for part in parts]),
+        np.concatenate([part.indices + offset for part, offset in zip(parts, offsets, strict=False)]),
+        np.concatenate(normals) if len(normals) == len(parts) else None,
+        np.concatenate(uvs) if len(uvs) == len(parts) else None,
+    )
+
+
+def _clause(error: Exception) -> str:
+    """Text of an error as part of a sentence: one line, short, without its full stop."""
+    text = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+    return text if len(text) <= 120 else text[:117] + "..."

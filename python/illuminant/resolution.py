@@ -1,0 +1,361 @@
+"""From the tables of a scene to plain data: names, files, units and spectra are looked up, and every mistake is kept.
+
+`Resolver` knows the frame of a scene (unit, up axis, wavelength range, folder, named spectra) and turns one material,
+light or camera at a time into its entry of the description that the core reads: metres, seconds, nm. It never stops
+at a mistake; the `Report` holds them. Objects are resolved in `objects`.
+
+A material's entry has curves in place (`Spectrum`); `indexed` numbers them at the end, each different curve once, in
+the order of first use, so that equal scenes have equal descriptions.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
+
+from illuminant import environments, placement, spectra
+from illuminant.curves import Curves, curve_from_spectrum
+from illuminant.errors import DataError, ImageError, suggestion
+from illuminant.quantities import FITTING, QUANTITIES
+from illuminant.report import Path, Report, found, read_table
+from illuminant.schema import KINDS_OF_LIGHT, KINDS_OF_MATERIAL, MAX_PIXELS, Camera, Table
+from illuminant.spectra import Spectrum
+
+if TYPE_CHECKING:
+    import numpy as np
+
+__all__ = ["Material", "Resolver", "in_place", "indexed"]
+
+
+@dataclass(frozen=True)
+class Material:
+    """A material of the description, and what its objects emit (None: nothing)."""
+
+    entry: dict[str, Any]
+    emission: dict[str, Any] | None
+
+
+class Resolver:
+    """Resolves the parts of one scene.
+
+    Args:
+        report: takes the mistakes.
+        frame: the keys `length_unit`, `up`, `range_nm` and `spectra` of the scene.
+        directory: folder that file names are relative to.
+    """
+
+    def __init__(
+        self, report: Report, frame: Mapping[str, Any], directory: str | os.PathLike[str] = "."
+    ) -> None:
+        self.report = report
+        self.unit_m = placement.METRES[frame.get("length_unit", "m")]
+        self.up: str = frame.get("up", "y")
+        first, last = frame.get("range_nm", (380.0, 780.0))
+        self.directory = FilePath(directory)
+        self.curves = Curves(report, frame.get("spectra"), directory, (first, last))
+        self.images: dict[str, np.ndarray] = {}
+
+    # --- materials ---------------------------------------------------------------------------------------------
+
+    def material(self, name: str, raw: Any) -> Material | None:
+        """A material, or None after reporting its mistakes."""
+        path: Path = ("materials", name)
+        before = len(self.report.problems)
+        table, bad = self._kind(KINDS_OF_MATERIAL, raw, path)
+        if table is None:
+            return None
+        entry: dict[str, Any] = {"name": name, "kind": table.kind}
+        emission = None
+        if table.kind == "diffuse":
+            entry["reflectance"] = self._spectrum(table, bad, "reflectance", "reflectance", path)
+        elif table.kind == "conductor":
+            for part in ("n", "k"):
+                entry[part] = self._part_of(table, bad, "metal", part, path)
+            entry["roughness"] = float(table.roughness)
+        elif table.kind == "dielectric":
+            entry["n"] = self._part_of(table, bad, "medium", "n", path)
+            entry["roughness"] = float(table.roughness)
+            entry["absorption"] = self._spectrum(table, bad, "absorption", "absorption", path)
+            entry["dispersion"] = table.dispersion
+            self._one_way(raw, ("medium", "n"), path)
+        else:
+            black = 0.0 if table.reflectance is None else table.reflectance
+            entry["kind"] = "diffuse"
+            entry["reflectance"] = self._spectrum(table, bad, "reflectance", "reflectance", path, black)
+            emission = {
+                "spectrum": self._spectrum(table, bad, "spectrum", "emission", path),
+                "quantity": self._quantity(table, raw, "emitter", path),
+                "sides": table.sides,
+            }
+        if table.kind == "conductor":
+            self._conductor_form(raw, path)
+        return None if len(self.report.problems) > before else Material(entry, emission)
+
+    def _conductor_form(self, raw: dict[str, Any], path: Path) -> None:
+        if "metal" in raw:
+            for key in ("n", "k"):
+                if key in raw:
+                    self.report.add(
+                        (*path, key), "is given twice: metal brings its own n and k", kind="exactly-one"
+                    )
+        elif "n" not in raw or "k" not in raw:
+            missing = [key for key in ("n", "k") if key not in raw]
+            what = "metal, or n and k, is" if len(missing) == 2 else f"{missing[0]} is"
+            self.report.add(path, f"{what} missing", 'for example metal = "gold"', "missing-key")
+
+    def _one_way(self, raw: dict[str, Any], keys: tuple[str, str], path: Path) -> None:
+        given = [key for key in keys if key in raw]
+        if len(given) == 2:
+            self.report.add(
+                (*path, given[1]), f"is given twice: {given[0]} brings its own {given[1]}", kind="exactly-one"
+            )
+        elif not given:
+            self.report.add(
+                path, f"{keys[0]} or {keys[1]} is missing", 'for example medium = "BK7"', "missing-key"
+            )
+
+    def _part_of(self, table: Any, bad: set[str], whole: str, part: str, path: Path) -> Spectrum | None:
+        """n or k, from its own key or from the metal or medium that is named."""
+        name = getattr(table, whole)
+        if name is None or whole in bad:
+            return self._spectrum(table, bad, part, part, path)
+        try:
+            spectra.find(f"{name}.{part}")
+        except DataError as error:
+            known = [entry.removesuffix(f".{part}") for entry in spectra.names(part)]  # type: ignore[arg-type]
+            message = (
+                f'"{name}" is not in the library, whose {whole} names with {part} are {", ".join(known)}'
+            )
+            if "but no k" in error.message:
+                message = error.message
+            self.report.add((*path, whole), message, suggestion(name, known), "unknown-spectrum")
+            return None
+        return self.curves.resolve(f"{name}.{part}", part, (*path, whole))
+
+    # --- lights ------------------------------------------------------------------------------------------------
+
+    def light(self, name: str, raw: Any) -> dict[str, Any] | None:
+        """A light, or None after reporting its mistakes; the image of an environment goes to `images`."""
+        path: Path = ("lights", name)
+        before = len(self.report.problems)
+        table, bad = self._kind(KINDS_OF_LIGHT, raw, path)
+        if table is None:
+            return None
+        entry: dict[str, Any] = {"name": name, "kind": table.kind}
+        source = table.kind
+        if table.kind == "environment":
+            source = "environment image" if "image" in raw else "environment"
+            entry |= self._environment(table, raw, bad, name, path)
+        else:
+            entry["spectrum"] = self._spectrum(table, bad, "spectrum", "emission", path)
+            if table.kind != "directional":
+                entry["position"] = self._lengths(table.position)
+            if table.kind != "point":
+                entry["direction"] = [float(value) for value in table.direction]
+                if "direction" not in bad and not any(table.direction):
+                    self.report.add((*path, "direction"), "must have a length", kind="direction")
+            if table.kind == "spot":
+                entry["half_angle_deg"] = float(table.half_angle_deg)
+                entry["penumbra_deg"] = float(table.penumbra_deg)
+                if not {"half_angle_deg", "penumbra_deg"} & bad and table.penumbra_deg > table.half_angle_deg:
+                    self.report.add(
+                        (*path, "penumbra_deg"),
+                        f"must be at most half_angle_deg, {table.half_angle_deg:g}, found {table.penumbra_deg:g}",
+                        kind="range",
+                    )
+        entry["quantity"] = self._quantity(table, raw, source, path)
+        return None if len(self.report.problems) > before else entry
+
+    def _environment(
+        self, table: Any, raw: dict[str, Any], bad: set[str], name: str, path: Path
+    ) -> dict[str, Any]:
+        entry: dict[str, Any] = {"spectrum": None, "image": None}
+        given = [key for key in ("spectrum", "image") if key in raw]
+        if len(given) != 1:
+            what = " and ".join(given) or "neither"
+            self.report.add(
+                path, f"must have exactly one of spectrum and image; found {what}", kind="exactly-one"
+            )
+        if "spectrum" in raw:
+            entry["spectrum"] = self._spectrum(table, bad, "spectrum", "emission", path)
+            if "rgb_system" in raw and "image" not in raw:
+                self.report.add(
+                    (*path, "rgb_system"), "goes with image, not with spectrum", kind="unknown-key"
+                )
+        if "image" in raw and "image" not in bad:
+            entry["image"] = name
+            try:
+                self.images[name] = self._image(table.image)
+            except ImageError as error:
+                is_file = not isinstance(table.image, str) or (self.directory / table.image).is_file()
+                self.report.add((*path, "image"), str(error), kind="image" if is_file else "missing-file")
+        system = (
+            self.curves.system(table.rgb_system, (*path, "rgb_system")) if "rgb_system" not in bad else None
+        )
+        return entry | {
+            "rgb_system": system,
+            "up": table.up or self.up,
+            "rotation_deg": float(table.rotation_deg),
+        }
+
+    def _image(self, image: Any) -> np.ndarray:
+        if isinstance(image, str):
+            return environments.read(self.directory / image)
+        if isinstance(image, (dict, list, bool, int, float)):
+            raise ImageError(f"must be the name of a file, found {found(image)}")
+        return environments.checked(image)
+
+    # --- camera ------------------------------------------------------------------------------------------------
+
+    def camera(self, raw: Any) -> dict[str, Any] | None:
+        """The camera, or None after reporting its mistakes."""
+        path: Path = ("camera",)
+        before = len(self.report.problems)
+        table, bad = read_table(Camera, raw, path, self.report)
+        if table is None:
+            return None
+        up = table.up or [float(axis == self.up) for axis in "xyz"]
+        eye, target = (self._lengths(point) for point in (table.eye, table.target))
+        view = [b - a for a, b in zip(eye, target, strict=True)]
+        if not bad & {"eye", "target", "up"}:
+            if not any(view):
+                self.report.add(
+                    (*path, "target"), "is the same point as eye; the camera looks nowhere", kind="camera"
+                )
+            elif not any(up):
+                self.report.add((*path, "up"), "must have a length", kind="camera")
+            elif _sine(view, up) < 1e-6:
+                self.report.add(
+                    (*path, "up"),
+                    "is parallel to the direction of view; the image has no upright",
+                    kind="camera",
+                )
+        width, height = table.size
+        if "size" not in bad and width * height > MAX_PIXELS:
+            self.report.add(
+                (*path, "size"),
+                f"is {width} × {height} pixels; at most {MAX_PIXELS} pixels are possible",
+                kind="size",
+            )
+        if table.crop is not None and not bad & {"crop", "size"}:
+            left, top, right, bottom = table.crop
+            if not (left < right <= width and top < bottom <= height):
+                self.report.add(
+                    (*path, "crop"),
+                    f"must be left, top, right, bottom inside {width} × {height} pixels, found {table.crop}",
+                    kind="crop",
+                )
+        if len(self.report.problems) > before:
+            return None
+        return {
+            "eye": eye,
+            "target": target,
+            "up": [float(value) for value in up],
+            "field_of_view_deg": float(table.field_of_view),
+            "size": list(table.size),
+            "crop": None if table.crop is None else list(table.crop),
+            "shutter": [0.0, 0.0],
+        }
+
+    # --- what all share ----------------------------------------------------------------------------------------
+
+    def _kind(self, kinds: Mapping[str, type[Table]], raw: Any, path: Path) -> tuple[Any, set[str]]:
+        """A table whose key `kind` says which model it follows."""
+        if not isinstance(raw, dict):
+            self.report.add(path, f"must be a table, found {found(raw)}", kind="type")
+            return None, set()
+        kind = raw.get("kind")
+        if not isinstance(kind, str) or kind not in kinds:
+            words = ", ".join(f'"{known}"' for known in kinds)
+            if "kind" not in raw:
+                self.report.add((*path, "kind"), f"is missing; expected one of {words}", kind="missing-key")
+            else:
+                hint = suggestion(kind, kinds) if isinstance(kind, str) else ""
+                self.report.add(
+                    (*path, "kind"), f"must be one of {words}, found {found(kind)}", hint, "choice"
+                )
+            return None, set()
+        others = [model for known, model in kinds.items() if known != kind]
+        return read_table(kinds[kind], raw, path, self.report, others)
+
+    def _spectrum(
+        self, table: Any, bad: set[str], key: str, use: str, path: Path, default: Any = None
+    ) -> Spectrum | None:
+        value = getattr(table, key)
+        value = default if value is None else value
+        return None if value is None or key in bad else self.curves.resolve(value, use, (*path, key))
+
+    def _quantity(self, table: Any, raw: dict[str, Any], source: str, path: Path) -> dict[str, Any] | None:
+        """The one quantity of a source, or None after reporting that there is none, two, or one that does not fit."""
+        given = [key for key in QUANTITIES if key in raw]
+        fitting = ", ".join(FITTING[source])
+        named = f"an {source}" if source[0] in "aeiou" else f"a {source}"
+        unfit = [key for key in given if key not in FITTING[source]]
+        for key in unfit:
+            self.report.add((*path, key), f"does not fit {named}; expected one of {fitting}", kind="quantity")
+        if len(given) != 1:
+            what = "none" if not given else " and ".join(given)
+            self.report.add(
+                path, f"must have exactly one quantity of {fitting}; found {what}", kind="quantity"
+            )
+        if unfit or len(given) != 1 or not isinstance(getattr(table, given[0]), (int, float)):
+            return None
+        return {"kind": given[0], "value": float(getattr(table, given[0]))}
+
+    def _lengths(self, values: Any) -> list[float]:
+        return [float(value) * self.unit_m for value in values]
+
+
+def indexed(description: dict[str, Any]) -> dict[str, Any]:
+    """A description whose curves stand in place, with the curves listed once each and referred to by number.
+
+    Curves are equal when their points and their rule outside are; the first name is kept.
+    """
+    curves: list[dict[str, Any]] = []
+    numbers: dict[tuple[Any, ...], int] = {}
+
+    def number(spectrum: Spectrum) -> int:
+        key = (spectrum.wavelengths_nm, spectrum.values, spectrum.outside)
+        if key not in numbers:
+            numbers[key] = len(curves)
+            curves.append(curve_from_spectrum(spectrum))
+        return numbers[key]
+
+    def walk(value: Any) -> Any:
+        if isinstance(value, Spectrum):
+            return number(value)
+        if isinstance(value, dict):
+            return {key: walk(one) for key, one in value.items()}
+        return [walk(one) for one in value] if isinstance(value, list) else value
+
+    walked = walk(description)
+    return {"range": walked.pop("range"), "curves": curves, **walked}
+
+
+def in_place(description: Mapping[str, Any]) -> dict[str, Any]:
+    """The inverse of `indexed`: a copy of a description whose curves stand in place of their numbers."""
+    curves = [
+        Spectrum(curve["name"], curve["wavelengths"], curve["values"], curve["outside"])
+        for curve in description["curves"]
+    ]
+    keys = ("reflectance", "n", "k", "absorption", "spectrum")
+
+    def walk(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {
+                key: curves[one] if key in keys and one is not None else walk(one)
+                for key, one in value.items()
+            }
+        return [walk(one) for one in value] if isinstance(value, list) else value
+
+    parts: dict[str, Any] = walk({key: value for key, value in description.items() if key != "curves"})
+    return parts
+
+
+def _sine(a: list[float], b: list[float]) -> float:
+    cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    return math.hypot(*cross) / (math.hypot(*a) * math.hypot(*b))

@@ -1,0 +1,511 @@
+"""The scene file as data: every table and key, its type, unit, meaning, default and an example.
+
+The models are strict (a string is never a number, an unknown key is a mistake) and are the single source of three
+things: the validation in `scene_file`, the reference in `docs/scene-file.md`, and what `illuminant check --schema`
+prints. They check the form of one table; what joins tables (names, files, roles, quantities) is checked in
+`resolution`.
+
+Lengths are in the file's `length_unit`, angles in degrees, wavelengths in nm; every other quantity is in the SI unit
+that its key names.
+
+Example:
+    >>> from illuminant.schema import Camera
+    >>> Camera.model_validate({"eye": [0, 1, 4], "target": [0, 1, 0]}).field_of_view
+    40.0
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+
+from illuminant.quantities import QUANTITIES
+
+__all__ = [
+    "KINDS_OF_LIGHT",
+    "KINDS_OF_MATERIAL",
+    "MAX_PIXELS",
+    "Box",
+    "Camera",
+    "Conductor",
+    "Dielectric",
+    "Diffuse",
+    "Directional",
+    "Disc",
+    "Emitter",
+    "Environment",
+    "Filter",
+    "MeshTable",
+    "Object",
+    "Point",
+    "Rectangle",
+    "Render",
+    "Rotation",
+    "SceneFile",
+    "SpectrumTable",
+    "SpectrumValue",
+    "Sphere",
+    "Spot",
+    "Table",
+]
+
+MAX_PIXELS = 2**26
+"""The largest image, in pixels (8192 × 8192): its film with 32 lanes in f64 is 17 GB."""
+
+
+def key(description: str, example: str, default: Any = ...) -> Any:
+    """A key of a table: what it means, and an example as TOML writes the value."""
+    return Field(default, description=description, examples=[example])
+
+
+def quantity(name: str, example: str) -> Any:
+    """A quantity key: positive, and optional here because exactly one of those that fit is required."""
+    return Field(None, gt=0, description=QUANTITIES[name], examples=[example])
+
+
+class Table(BaseModel):
+    """Base of all tables: unknown keys, infinities, NaN and silent conversions are refused."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+
+Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
+Edges = Annotated[list[Vector], Field(min_length=2, max_length=2)]
+Corners = Annotated[list[Vector], Field(min_length=4, max_length=4)]
+Row = Annotated[list[float], Field(min_length=4, max_length=4)]
+Matrix = Annotated[list[Row], Field(min_length=3, max_length=4)]
+Size = Annotated[list[Annotated[int, Field(ge=1)]], Field(min_length=2, max_length=2)]
+Crop = Annotated[list[Annotated[int, Field(ge=0)]], Field(min_length=4, max_length=4)]
+Range = Annotated[list[Annotated[float, Field(gt=0)]], Field(min_length=2, max_length=2)]
+Rgb = Annotated[list[float], Field(min_length=3, max_length=3)]
+Positive = Annotated[float, Field(gt=0)]
+Fraction = Annotated[float, Field(ge=0, le=1)]
+
+
+class SpectrumTable(Table):
+    """A spectrum written in place.
+
+    Exactly one of `library`, `file`, `constant`, `blackbody_k`, `daylight_k`, `wavelengths_nm` (with `values`) and
+    `rgb` (with `role`) says where it comes from. Between its points it is linear.
+    """
+
+    library: str | None = key(
+        "name of a spectrum in the library of the package", '"ColorChecker/dark skin"', None
+    )
+    file: str | None = key(
+        "CSV or two-column file of wavelength in nm and value, beside the scene file",
+        '"spectra/paint.csv"',
+        None,
+    )
+    column: str | None = key("name of the column of `file`, where it has several", '"red"', None)
+    constant: float | None = key("the same value at every wavelength", "0.18", None)
+    blackbody_k: Positive | None = key(
+        "temperature of a black body (Planck), in K; absolute radiance, for use with `radiance_scale`, or relative "
+        "with any other quantity",
+        "2700.0",
+        None,
+    )
+    daylight_k: Annotated[float, Field(ge=4000, le=25000)] | None = key(
+        "correlated colour temperature of a CIE daylight, 4000 to 25,000 K; relative", "6504.0", None
+    )
+    wavelengths_nm: list[float] | None = key("wavelengths, increasing, in nm", "[400.0, 550.0, 700.0]", None)
+    values: list[float] | None = key("the value at each of `wavelengths_nm`", "[0.1, 0.4, 0.2]", None)
+    rgb: Rgb | None = key(
+        "three linear values (not gamma-encoded) of an RGB system, made a smooth spectrum by the sigmoid of Jakob "
+        "and Hanika (2019); refused for n, k and absorption",
+        "[0.6, 0.2, 0.1]",
+        None,
+    )
+    role: Literal["albedo", "emission"] | None = key(
+        "what `rgb` is: the albedo of a surface, or light under the white of its system", '"albedo"', None
+    )
+    system: str | None = key('RGB system of `rgb`; default "sRGB"', '"Rec.2020"', None)
+    scale: float | None = key("factor on all values; default 1", "0.01", None)
+    outside: Literal["zero", "hold", "error"] | None = key(
+        "the rule beyond the first and last point: zero, hold the end value, or an error when the scene's "
+        "wavelength range needs it; default what the data say of themselves, else zero for light and hold for others",
+        '"hold"',
+        None,
+    )
+
+
+def _spectrum_form(value: Any) -> str | None:
+    if isinstance(value, str):
+        return "<name>"
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return "<constant>"
+    return "<table>" if isinstance(value, (dict, SpectrumTable)) else None
+
+
+SpectrumValue = Annotated[
+    Annotated[str, Tag("<name>")]
+    | Annotated[float, Tag("<constant>")]
+    | Annotated[SpectrumTable, Tag("<table>")],
+    Discriminator(
+        _spectrum_form,
+        custom_error_type="spectrum_form",
+        custom_error_message="must be a spectrum: a name, a number, or a table such as { blackbody_k = 2700.0 }",
+    ),
+]
+"""A name (of `[spectra]`, else of the library), a number (the same at every wavelength) or a `SpectrumTable`."""
+
+
+class Quantities(Table):
+    """Exactly one of the quantities that fit says how strong a source is."""
+
+    power_w: float | None = quantity("power_w", "60.0")
+    flux_lm: float | None = quantity("flux_lm", "806.0")
+    intensity_cd: float | None = quantity("intensity_cd", "100.0")
+    illuminance_lx: float | None = quantity("illuminance_lx", "1000.0")
+    irradiance_w_m2: float | None = quantity("irradiance_w_m2", "10.0")
+    luminance_cd_m2: float | None = quantity("luminance_cd_m2", "5000.0")
+    radiance_scale: float | None = quantity("radiance_scale", "1.0")
+
+
+class Camera(Table):
+    """A perspective camera (book 1.1): the image plane is perpendicular to the direction of view."""
+
+    eye: Vector = key("position of the eye, in length units", "[0.0, 1.0, 4.0]")
+    target: Vector = key("a point in the middle of the image, in length units", "[0.0, 1.0, 0.0]")
+    up: Vector | None = key(
+        "direction that is up in the image; default the world's up", "[0.0, 1.0, 0.0]", None
+    )
+    field_of_view: Annotated[float, Field(gt=0, lt=180)] = key(
+        "angle across the width of the image, in degrees", "40.0", 40.0
+    )
+    size: Size = key(
+        f"width and height of the image in pixels; at most {MAX_PIXELS} pixels", "[960, 540]", [960, 540]
+    )
+    crop: Crop | None = key(
+        "the part of the image to render: left, top, right, bottom in pixels (right and bottom excluded)",
+        "[100, 50, 300, 200]",
+        None,
+    )
+
+
+class Filter(Table):
+    """The reconstruction filter of the film."""
+
+    kind: Literal["gaussian", "box", "tent"] = key("shape of the filter", '"gaussian"')
+    radius: Annotated[float, Field(gt=0, le=16)] = key("radius, in pixels", "1.5")
+
+
+class Render(Table):
+    """Defaults for the options of `illuminant render`; an option on the command line wins."""
+
+    technique: str | None = key("how light is followed", '"path"', None)
+    illumination: str | None = key("what a surface does with it", '"general"', None)
+    sampling: str | None = key("how wavelengths are carried", '"uniform:32"', None)
+    samples: Annotated[int, Field(ge=1)] | None = key("samples of each pixel", "256", None)
+    depth: Annotated[int, Field(ge=0)] | None = key("largest number of bounces; default no limit", "16", None)
+    seed: Annotated[int, Field(ge=0, lt=2**63)] | None = key("seed of the random numbers", "1", None)
+    exposure: Positive | None = key("factor from luminance in cd/m² to the display's 0 to 1", "0.01", None)
+    filter: Filter | None = key("reconstruction filter", '{ kind = "gaussian", radius = 1.5 }', None)
+
+
+class Diffuse(Table):
+    """A surface that scatters light equally in all directions (Lambert)."""
+
+    kind: Literal["diffuse"] = key("the kind of material", '"diffuse"')
+    reflectance: SpectrumValue = key("fraction of light reflected, 0 to 1", '"ColorChecker/dark skin"')
+
+
+class Conductor(Table):
+    """A metal, from its measured index of refraction n and extinction k; `metal`, or `n` and `k`."""
+
+    kind: Literal["conductor"] = key("the kind of material", '"conductor"')
+    metal: str | None = key("name of a metal of the library, whose n and k are used", '"gold"', None)
+    n: SpectrumValue | None = key("index of refraction", '"copper.n"', None)
+    k: SpectrumValue | None = key("extinction coefficient", '"copper.k"', None)
+    roughness: Fraction = key(
+        "root mean square slope of the microfacets (Beckmann's m); 0 is a mirror", "0.2", 0.0
+    )
+
+
+class Dielectric(Table):
+    """Glass, water, a gem: light is reflected and refracted at its surface; `medium`, or `n`."""
+
+    kind: Literal["dielectric"] = key("the kind of material", '"dielectric"')
+    medium: str | None = key("name of a medium of the library, whose n is used", '"BK7"', None)
+    n: SpectrumValue | None = key("index of refraction", "1.5", None)
+    roughness: Fraction = key("root mean square slope of the microfacets; 0 is smooth", "0.1", 0.0)
+    absorption: SpectrumValue | None = key(
+        "absorption coefficient of the inside, in 1/m (always, whatever `length_unit` is); default none",
+        "{ wavelengths_nm = [380.0, 780.0], values = [2.0, 0.5] }",
+        None,
+    )
+    dispersion: bool = key(
+        "whether n changes with wavelength (false: its value at 589.3 nm is used)", "false", True
+    )
+
+
+class Emitter(Quantities):
+    """A surface that shines with the same radiance in all directions, and reflects as a diffuse one.
+
+    Exactly one quantity; `power_w` and `flux_lm` are for each object that has the material.
+    """
+
+    kind: Literal["emitter"] = key("the kind of material", '"emitter"')
+    spectrum: SpectrumValue = key("spectrum of the light", '"A"')
+    sides: Literal["front", "both"] = key(
+        "the sides that shine; front is where the normal points", '"both"', "front"
+    )
+    reflectance: SpectrumValue | None = key("fraction of light reflected; default 0", "0.78", None)
+
+
+class Sphere(Table):
+    """A true sphere, not a mesh. It can be scaled only by the same factor in all directions."""
+
+    center: Vector = key("centre, in length units", "[0.0, 0.5, 0.0]", [0.0, 0.0, 0.0])
+    radius: Positive = key("radius, in length units", "0.5")
+
+
+class Rectangle(Table):
+    """A flat four-sided face: `corner` with `edges`, or `corners`. Its front is where they run anticlockwise."""
+
+    corner: Vector | None = key("one corner, in length units", "[0.0, 0.0, 0.0]", None)
+    edges: Edges | None = key(
+        "the two edges from it; the normal is first × second", "[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]", None
+    )
+    corners: Corners | None = key(
+        "four corners in order, in one plane",
+        "[[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, 0.0]]",
+        None,
+    )
+
+
+class Box(Table):
+    """A box along the axes; turn it with `rotate`."""
+
+    min: Vector = key("the corner with the smallest coordinates, in length units", "[-1.0, 0.0, -1.0]")
+    max: Vector = key("the corner with the largest coordinates, in length units", "[1.0, 2.0, 1.0]")
+
+
+class Disc(Table):
+    """A flat disc: a regular polygon of 128 sides with the area of the disc."""
+
+    center: Vector = key("centre, in length units", "[0.0, 2.0, 0.0]", [0.0, 0.0, 0.0])
+    normal: Vector = key("the direction that its front faces", "[0.0, -1.0, 0.0]")
+    radius: Positive = key("radius, in length units", "0.3")
+
+
+class MeshTable(Table):
+    """A mesh with what the file does not say of itself; or, instead of `file`, `positions` and `faces`."""
+
+    file: str | None = key(
+        "OBJ, PLY, STL, GLB or glTF file, or one of these compressed (.gz), beside the scene file",
+        '"meshes/bunny.ply.gz"',
+        None,
+    )
+    unit: Literal["m", "cm", "mm", "in", "ft"] | None = key(
+        "length unit of the file; default metres for GLB and glTF, else the scene's `length_unit`",
+        '"mm"',
+        None,
+    )
+    up: Literal["y", "z"] | None = key(
+        "axis that is up in the file; default y for GLB and glTF, else the scene's `up`", '"z"', None
+    )
+    zero_area: Literal["error", "remove"] = key(
+        "what to do about faces without area: refuse the mesh, or leave them out", '"remove"', "error"
+    )
+    positions: Any = key(
+        "vertices, in length units", "[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]", None
+    )
+    faces: Any = key(
+        "vertex numbers (from 0) of each face, three or four, anticlockwise from its front",
+        "[[0, 1, 2]]",
+        None,
+    )
+    normals: Any = key(
+        "a normal for each vertex", "[[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]", None
+    )
+    uvs: Any = key("a texture coordinate for each vertex", "[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]", None)
+
+
+def _mesh_form(value: Any) -> str | None:
+    if isinstance(value, str):
+        return "<name>"
+    return "<table>" if isinstance(value, (dict, MeshTable)) else None
+
+
+MeshValue = Annotated[
+    Annotated[str, Tag("<name>")] | Annotated[MeshTable, Tag("<table>")],
+    Discriminator(
+        _mesh_form,
+        custom_error_type="mesh_form",
+        custom_error_message='must be a mesh: a file name, or a table such as { file = "a.ply", unit = "mm" }',
+    ),
+]
+
+
+def _axis_form(value: Any) -> str | None:
+    if isinstance(value, str):
+        return "<name>"
+    return "<vector>" if isinstance(value, list) else None
+
+
+AxisValue = Annotated[
+    Annotated[Literal["x", "y", "z"], Tag("<name>")] | Annotated[Vector, Tag("<vector>")],
+    Discriminator(
+        _axis_form,
+        custom_error_type="axis_form",
+        custom_error_message='must be "x", "y", "z" or three numbers',
+    ),
+]
+
+
+class Rotation(Table):
+    """A turn about an axis through the origin, anticlockwise when the axis points at the viewer."""
+
+    axis: AxisValue = key("the axis", '"y"')
+    degrees: float = key("the angle, in degrees", "30.0")
+
+
+def _rotate_form(value: Any) -> str | None:
+    if isinstance(value, (dict, Rotation)):
+        return "<one>"
+    return "<several>" if isinstance(value, list) else None
+
+
+RotateValue = Annotated[
+    Annotated[Rotation, Tag("<one>")] | Annotated[list[Rotation], Tag("<several>")],
+    Discriminator(
+        _rotate_form,
+        custom_error_type="rotate_form",
+        custom_error_message='must be a rotation such as { axis = "y", degrees = 30.0 }, or a list of them',
+    ),
+]
+
+
+def _scale_form(value: Any) -> str | None:
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return "<one>"
+    return "<several>" if isinstance(value, list) else None
+
+
+ScaleValue = Annotated[
+    Annotated[float, Tag("<one>")] | Annotated[Vector, Tag("<several>")],
+    Discriminator(
+        _scale_form,
+        custom_error_type="scale_form",
+        custom_error_message="must be a number, or three numbers for the three axes",
+    ),
+]
+
+
+class Object(Table):
+    """A thing with one material: exactly one of `mesh`, `sphere`, `rectangle`, `box` and `disc`.
+
+    It is scaled, then rotated, then translated; or placed by `matrix`. A mirroring transform keeps the outside out.
+    """
+
+    material: str = key("name of one of `[materials]`", '"red paint"')
+    mesh: MeshValue | None = key("file of a mesh, or a table", '"meshes/bunny.ply.gz"', None)
+    sphere: Sphere | None = key("a sphere", "{ center = [0.0, 0.5, 0.0], radius = 0.5 }", None)
+    rectangle: Rectangle | None = key(
+        "a flat four-sided face",
+        "{ corner = [0.0, 0.0, 0.0], edges = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]] }",
+        None,
+    )
+    box: Box | None = key("a box along the axes", "{ min = [0.0, 0.0, 0.0], max = [1.0, 2.0, 1.0] }", None)
+    disc: Disc | None = key(
+        "a flat disc", "{ center = [0.0, 2.0, 0.0], normal = [0.0, -1.0, 0.0], radius = 0.3 }", None
+    )
+    smooth: bool | None = key(
+        "shade with vertex normals: those of the file, else made from the faces around each vertex (true), or never "
+        "(false); default those of the file if it has them",
+        "true",
+        None,
+    )
+    scale: ScaleValue | None = key("a factor, or one for each axis", "0.01", None)
+    rotate: RotateValue | None = key(
+        "a rotation, or a list that is done in order", '{ axis = "y", degrees = 30.0 }', None
+    )
+    translate: Vector | None = key("a shift, in length units", "[0.0, 0.5, 0.0]", None)
+    matrix: Matrix | None = key(
+        "three or four rows of four numbers, instead of the other three; the last column is in length units",
+        "[[1.0, 0.0, 0.0, 0.5], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]",
+        None,
+    )
+
+
+class Point(Quantities):
+    """A lamp without size that shines equally in all directions."""
+
+    kind: Literal["point"] = key("the kind of light", '"point"')
+    position: Vector = key("position, in length units", "[0.0, 2.0, 0.0]")
+    spectrum: SpectrumValue = key("spectrum of the light", '"LED-B3"')
+
+
+class Spot(Quantities):
+    """A lamp without size that shines in a cone."""
+
+    kind: Literal["spot"] = key("the kind of light", '"spot"')
+    position: Vector = key("position, in length units", "[0.0, 2.0, 0.0]")
+    direction: Vector = key("direction of its axis, away from the lamp", "[0.0, -1.0, 0.0]")
+    half_angle_deg: Annotated[float, Field(gt=0, le=90)] = key(
+        "angle from the axis to the edge of the cone", "25.0"
+    )
+    penumbra_deg: Annotated[float, Field(ge=0, le=90)] = key(
+        "width of the soft edge, inside the cone; at most the half angle", "5.0", 0.0
+    )
+    spectrum: SpectrumValue = key("spectrum of the light", '"A"')
+
+
+class Directional(Quantities):
+    """Light from far away, such as the sun: parallel rays."""
+
+    kind: Literal["directional"] = key("the kind of light", '"directional"')
+    direction: Vector = key("direction in which the light travels", "[-1.0, -2.0, -1.0]")
+    spectrum: SpectrumValue = key("spectrum of the light", '"D65"')
+
+
+class Environment(Quantities):
+    """Light from all around: the same from everywhere (`spectrum`), or an `image`."""
+
+    kind: Literal["environment"] = key("the kind of light", '"environment"')
+    spectrum: SpectrumValue | None = key("spectrum of the light", '"D65"', None)
+    image: Any = key(
+        "latitude-longitude image (HDR, EXR; PNG and JPEG are decoded from sRGB), beside the scene file; its RGB is "
+        "made light by upsampling under the white of `rgb_system`",
+        '"images/studio.exr"',
+        None,
+    )
+    rgb_system: str | None = key('RGB system of the image; default "sRGB"', '"ACES AP1"', None)
+    up: Literal["y", "z"] | None = key("axis of the top of the image; default the scene's `up`", '"z"', None)
+    rotation_deg: float = key("turn of the image about that axis", "90.0", 0.0)
+
+
+MaterialValue = Diffuse | Conductor | Dielectric | Emitter
+LightValue = Point | Spot | Directional | Environment
+
+KINDS_OF_MATERIAL: dict[str, type[Table]] = {
+    "diffuse": Diffuse,
+    "conductor": Conductor,
+    "dielectric": Dielectric,
+    "emitter": Emitter,
+}
+KINDS_OF_LIGHT: dict[str, type[Table]] = {
+    "point": Point,
+    "spot": Spot,
+    "directional": Directional,
+    "environment": Environment,
+}
+
+
+class SceneFile(Table):
+    """The top of the file."""
+
+    title: str = key("what the scene shows", '"Three metals under a lamp"', "")
+    length_unit: Literal["m", "cm", "mm", "in", "ft"] = key("unit of all lengths in the file", '"mm"', "m")
+    up: Literal["y", "z"] = key("axis of the world that is up", '"z"', "y")
+    range_nm: Range = key(
+        "first and last wavelength that light is carried at", "[360.0, 830.0]", [380.0, 780.0]
+    )
+    camera: Camera = key("where the image is taken from", "")
+    render: Render = key("defaults of the options of `illuminant render`", "", Render())
+    spectra: dict[str, SpectrumValue] = key("spectra by name", '{ paint = "ColorChecker/red" }', {})
+    materials: dict[str, MaterialValue] = key("materials by name", "", {})
+    objects: dict[str, Object] = key("objects by name", "", {})
+    lights: dict[str, LightValue] = key("lights by name", "", {})
