@@ -137,8 +137,6 @@ def write(path: str | Path, contents: Contents) -> None:
             value = json.dumps(value)
         if key in ("whiteLuminance", "Software"):
             spec.attribute(key, value)
-        elif isinstance(value, float):
-            spec.attribute(f"illuminant:{key}", "double", value)
         else:
             spec.attribute(f"illuminant:{key}", value)
     if contents.wavelengths_nm is not None:

@@ -303,7 +303,8 @@ class Image:
             layers=contents.layers,
             unit=str(unit),
             settings=settings if isinstance(settings, dict) else {},
-            exposure=float(found["exposure"]) if found.get("exposure") else None,
+            # Seven digits take back the rounding to a 32-bit float.
+            exposure=float(f"{found['exposure']:.7g}") if found.get("exposure") else None,
             wavelengths_nm=contents.wavelengths_nm,
             to_xyz=contents.to_xyz,
         )

@@ -162,10 +162,10 @@ def remake(settings: dict[str, Any], path: Path, exposure: float | None) -> str 
     samples = settings.get("samples")
     if samples is not None:
         words += ["--samples", str(max(samples) if isinstance(samples, list) else samples)]
-    if settings.get("image_size") or settings.get("size"):
-        width, height = settings.get("image_size") or settings["size"]
+    if settings.get("size"):
+        width, height = settings["size"]
         words += ["--size", f"{width}x{height}"]
-    for key in ("technique", "illumination", "sampling", "depth", "filter", "seed"):
+    for key in ("technique", "illumination", "sampling", "depth", "filter", "seed", "error"):
         if settings.get(key) is not None:
             words += [f"--{key}", str(settings[key])]
     if exposure is not None:

@@ -144,7 +144,7 @@ class Job:
 
     def __init__(self, scene: Scene | str | os.PathLike[str], **options: Any) -> None:
         self.scene, self.source = _scene(scene)
-        defaults = getattr(self.scene, "render_defaults", {})
+        defaults = self.scene.render_defaults
         self.settings = resolve(defaults, **options)
         if self.settings.size is not None:
             self.scene = resized(self.scene, self.settings.size)
@@ -158,7 +158,7 @@ class Job:
         embree()
         self._began = clock.monotonic()
         try:
-            self.core_scene = self.scene.core()
+            self.core_scene = self.scene.core(self.settings.threads)
             self.core_render = core().Render(self.core_scene, self.settings.to_core())
         except ValueError as error:
             if isinstance(error, UsageError) or hasattr(error, "problems"):
@@ -169,7 +169,7 @@ class Job:
 
     def warnings(self) -> list[str]:
         """Sentences on what in these settings does not suit this scene."""
-        return [str(text) for text in self.core_scene.warnings(self.settings.to_core())]
+        return [*self.scene.warnings, *map(str, self.core_scene.warnings(self.settings.to_core()))]
 
     def spectral_error(self) -> dict[str, Any]:
         """Error of the spectral sampling against 1 nm, in ΔE00, over what paths can meet in this scene."""
@@ -287,11 +287,13 @@ class Job:
         """How the image was made, with nothing in it that changes from run to run of the same image."""
         import illuminant
 
+        camera = self.scene.description["camera"]
         return {
             "version": illuminant.__version__,
             "scene": self.source,
             "scene_hash": self.scene.hash(),
-            "size": [self.width, self.height],
+            "size": list(camera["size"]),
+            **({"crop": list(camera["crop"])} if camera.get("crop") else {}),
             "samples": most if least == most else [least, most],
             **self.settings.to_header(),
             "dropped": int(statistics.get("dropped", 0)),
@@ -303,7 +305,7 @@ def _scene(scene: Scene | str | os.PathLike[str]) -> tuple[Scene, str]:
     from illuminant.scene import Scene
 
     if isinstance(scene, Scene):
-        return scene, str(getattr(scene, "path", None) or "")
+        return scene, scene.path or ""
     return Scene.load(scene), os.fspath(scene)
 
 
@@ -322,14 +324,12 @@ def resized(scene: Scene, size: tuple[int, int]) -> Scene:
     Raises:
         UsageError: the scene has a crop that the new image does not hold.
     """
-    camera = dict(scene.description["camera"])
-    crop = camera.get("crop")
+    crop = scene.description["camera"].get("crop")
     if crop and (crop[2] > size[0] or crop[3] > size[1]):
         raise UsageError(
             f"--size {size[0]}x{size[1]}: the scene's crop ends at {crop[2]},{crop[3]}, outside this image."
         )
-    camera["size"] = list(size)
-    return scene.replace(camera=camera)
+    return scene.replace(camera={"size": list(size)})
 
 
 def memory_needed(settings: Settings, pixels: int) -> int:

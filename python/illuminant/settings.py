@@ -105,6 +105,7 @@ class Settings:
             "seed": self.seed,
             "filter": f"{kind}:{radius:g}",
             "replicates": self.replicates,
+            **({} if self.error is None else {"error": self.error}),
         }
 
 

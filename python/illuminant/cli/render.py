@@ -144,9 +144,9 @@ def render(
       illuminant render room.toml -o room.png
       illuminant render room.toml -o room.exr -o room.png --time 30s
     """
-    from illuminant.cli.report import closing, emit_json, note, warning
+    from illuminant.cli.report import closing, emit_json, note, sentence, warning
     from illuminant.image import check_output
-    from illuminant.rendering import Job
+    from illuminant.rendering import Job, held
 
     paths = output or [Path(scene.stem + ".png")]
     if pixel is None:
@@ -179,6 +179,9 @@ def render(
         warning("A PNG holds no layers: add -o FILE.exr to keep them.")
 
     image = _work(job, scene.name)
+    if image.statistics["most_samples"] == 0:
+        sentence("Interrupted", "no pixel holds a sample yet, so nothing was written.")
+        raise typer.Exit(130)
     saved = [image.save(path, exposure=exposure, rgb=rgb, half=half, bits=bits) for path in paths]
     facts = _facts(job, image, saved)
     if json:
@@ -188,10 +191,7 @@ def render(
         _say_exposure(saved, image)
     _say_dropped(image)
     if job.interrupted:
-        from illuminant.cli.report import sentence
-        from illuminant.rendering import held
-
-        sentence("Interrupted", f"{held(image)}.")
+        sentence("Interrupted", f"{held(image)}; the image so far is written.")
         raise typer.Exit(130)
 
 
