@@ -208,9 +208,7 @@ class ObjectResolver:
                     mesh, unit, given.up or ("y" if standard else None), given.zero_area
                 )
             except DataError as error:
-                self._files[key] = DataError(
-                    error.message, "" if "no such file" in error.message else error.file or str(file)
-                )
+                self._files[key] = DataError(error.message, error.file or str(file))
         result = self._files[key]
         if isinstance(result, DataError):
             raise result

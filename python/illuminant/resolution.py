@@ -30,6 +30,15 @@ if TYPE_CHECKING:
 
 __all__ = ["Material", "Resolver", "in_place", "indexed"]
 
+NAMES_OF_SOURCES = {
+    "emitter": "an emitter",
+    "point": "a point light",
+    "spot": "a spot light",
+    "directional": "a directional light",
+    "environment": "an environment",
+    "environment image": "an environment image",
+}
+
 
 @dataclass(frozen=True)
 class Material:
@@ -123,16 +132,23 @@ class Resolver:
         name = getattr(table, whole)
         if name is None or whole in bad:
             return self._spectrum(table, bad, part, part, path)
+        metals = [entry.removesuffix(".k") for entry in spectra.names("k")]
+        media = [
+            entry.removesuffix(".n") for entry in spectra.names("n") if entry.removesuffix(".n") not in metals
+        ]
+        known = metals if whole == "metal" else media
         try:
-            spectra.find(f"{name}.{part}")
+            entry = spectra.find(f"{name}.k" if whole == "metal" else f"{name}.n").name
         except DataError as error:
-            known = [entry.removesuffix(f".{part}") for entry in spectra.names(part)]  # type: ignore[arg-type]
             message = (
-                f'"{name}" is not in the library, whose {whole} names with {part} are {", ".join(known)}'
+                f'"{name}" is not in the library, whose {"metals" if whole == "metal" else "media"} are '
             )
-            if "but no k" in error.message:
-                message = error.message
+            message = error.message if "but no k" in error.message else message + ", ".join(known)
             self.report.add((*path, whole), message, suggestion(name, known), "unknown-spectrum")
+            return None
+        if whole == "medium" and entry.removesuffix(".n") in metals:
+            message = f'"{name}" is a metal; expected one of {", ".join(media)}'
+            self.report.add((*path, whole), message, 'metals go with kind = "conductor"', "spectrum-use")
             return None
         return self.curves.resolve(f"{name}.{part}", part, (*path, whole))
 
@@ -174,18 +190,12 @@ class Resolver:
         self, table: Any, raw: dict[str, Any], bad: set[str], name: str, path: Path
     ) -> dict[str, Any]:
         entry: dict[str, Any] = {"spectrum": None, "image": None}
-        given = [key for key in ("spectrum", "image") if key in raw]
-        if len(given) != 1:
-            what = " and ".join(given) or "neither"
-            self.report.add(
-                path, f"must have exactly one of spectrum and image; found {what}", kind="exactly-one"
-            )
+        if "spectrum" not in raw and "image" not in raw:
+            self.report.add(path, "must have a spectrum or an image; found neither", kind="missing-key")
         if "spectrum" in raw:
             entry["spectrum"] = self._spectrum(table, bad, "spectrum", "emission", path)
-            if "rgb_system" in raw and "image" not in raw:
-                self.report.add(
-                    (*path, "rgb_system"), "goes with image, not with spectrum", kind="unknown-key"
-                )
+        if "rgb_system" in raw and "image" not in raw:
+            self.report.add((*path, "rgb_system"), "goes with image, not with spectrum", kind="unknown-key")
         if "image" in raw and "image" not in bad:
             entry["image"] = name
             try:
@@ -293,12 +303,12 @@ class Resolver:
         """The one quantity of a source, or None after reporting that there is none, two, or one that does not fit."""
         given = [key for key in QUANTITIES if key in raw]
         fitting = ", ".join(FITTING[source])
-        named = f"an {source}" if source[0] in "aeiou" else f"a {source}"
         unfit = [key for key in given if key not in FITTING[source]]
         for key in unfit:
-            self.report.add((*path, key), f"does not fit {named}; expected one of {fitting}", kind="quantity")
-        if len(given) != 1:
-            what = "none" if not given else " and ".join(given)
+            message = f"does not fit {NAMES_OF_SOURCES[source]}; expected one of {fitting}"
+            self.report.add((*path, key), message, kind="quantity")
+        if len(given) - len(unfit) != 1 and not (unfit and len(given) == 1):
+            what = " and ".join(key for key in given if key not in unfit) or "none"
             self.report.add(
                 path, f"must have exactly one quantity of {fitting}; found {what}", kind="quantity"
             )

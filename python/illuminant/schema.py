@@ -264,19 +264,29 @@ class Directional(Quantities):
 
 
 class Environment(Quantities):
-    """Light from all around: the same from everywhere (`spectrum`), or an `image`."""
+    """Light from all around: the same from everywhere (`spectrum`), or an `image`.
+
+    The top row of the image is the zenith; its middle column lies along -z in a y-up world and along +y in a z-up one,
+    and the columns to its right towards +x.
+    """
 
     kind: Literal["environment"] = key("the kind of light", '"environment"')
-    spectrum: SpectrumValue | None = key("spectrum of the light", '"D65"', None)
+    spectrum: SpectrumValue | None = key(
+        "spectrum of the light; with an image that of RGB (1, 1, 1), by default the white of `rgb_system`",
+        '"D65"',
+        None,
+    )
     image: Any = key(
         "latitude-longitude image (HDR, EXR; PNG and JPEG are decoded from sRGB), beside the scene file; its RGB is "
-        "made light by upsampling under the white of `rgb_system`",
+        "made light by upsampling",
         '"images/studio.exr"',
         None,
     )
     rgb_system: str | None = key('RGB system of the image; default "sRGB"', '"ACES AP1"', None)
     up: Literal["y", "z"] | None = key("axis of the top of the image; default the scene's `up`", '"z"', None)
-    rotation_deg: float = key("turn of the image about that axis", "90.0", 0.0)
+    rotation_deg: float = key(
+        "turn of the image about that axis, anticlockwise seen from the zenith, in degrees", "90.0", 0.0
+    )
 
 
 MaterialValue = Diffuse | Conductor | Dielectric | Emitter
