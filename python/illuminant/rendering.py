@@ -1,8 +1,8 @@
 """Rendering a scene to an image, in passes that can be stopped.
 
 Samples are taken in ranges that grow (the first 4 of every pixel, then up to 16, to 64, and 64 more each
-time), so that an image which is stopped early is even. Ranges change no bit of the result: the film adds
-samples in fixed blocks.
+time), so that an image which is stopped early is even. Ranges change no bit of the result: the film's
+sums are exact.
 
 When to end:
 
@@ -13,7 +13,7 @@ When to end:
   the samples; the difference of two halves is a coarse estimate (one degree of freedom), so variances are
   averaged over 5 × 5 pixels first, and no decision is taken before 64 samples.
 
-Ctrl-C ends the work between tiles: `render` raises `Interrupted` with the partial image in its attribute
+Ctrl-C ends the work between tiles: `render` raises `RenderInterrupted` with the partial image in its attribute
 `image`.
 
 Example:
@@ -48,6 +48,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Job",
     "Progress",
+    "RenderInterrupted",
     "held",
     "progressive",
     "render",
@@ -82,6 +83,18 @@ class Progress:
 
 
 OnProgress = Callable[[Progress], object]
+
+
+class RenderInterrupted(Interrupted):
+    """Ctrl-C ended a render.
+
+    Attributes:
+        image: what was done until then.
+    """
+
+    def __init__(self, message: str, image: Image) -> None:
+        super().__init__(message)
+        self.image = image
 
 
 def next_range(done: int, limit: int | None) -> int:
@@ -154,7 +167,11 @@ class Job:
         self.stopped = False
         width, height = _pixels(self.scene)
         self.width, self.height = width, height
-        check_memory(self.settings, width * height)
+        description = self.scene.description
+        lamps = len(description["lights"]) + sum(
+            thing["emission"] is not None for thing in description["objects"]
+        )
+        check_memory(self.settings, width * height, lamps)
         embree()
         self._began = clock.monotonic()
         try:
@@ -259,7 +276,8 @@ class Job:
         import numpy as np
 
         render = self.core_render
-        layers = {name: np.asarray(render.layer(name)) for name in render.layers() if name != "xyz"}
+        names = [name for name in render.layers() if name not in ("xyz", "halves")]
+        layers = {name: np.asarray(render.layer(name)) for name in names}
         held = np.asarray(render.samples())
         if "samples" in self.settings.layers:
             layers["samples"] = held[..., None]
@@ -332,28 +350,36 @@ def resized(scene: Scene, size: tuple[int, int]) -> Scene:
     return scene.replace(camera={"size": list(size)})
 
 
-def memory_needed(settings: Settings, pixels: int) -> int:
-    """Bytes that the film and its image take, without the scene; an estimate, rather high.
+def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
+    """Bytes that the film and its image take, without the scene.
+
+    The film holds 16 bytes a channel (exact sums); an image and its copy on the way to a file take 20 more.
+
+    Args:
+        settings: which layers there are.
+        pixels: of the image.
+        lamps: how many lamps the scene has.
 
     Example:
-        >>> memory_needed(Settings(), 960 * 540) < 200e6
-        True
+        >>> memory_needed(Settings(), 960 * 540) // 1_000_000
+        76
     """
-    lanes = 401 if settings.sampling == "1nm" else 32
-    values = 3 * settings.replicates + 3
-    values += 7 * len(settings.layers)
-    values += lanes if settings.keep_spectra else 0
-    values += 12 if settings.lamps else 0
-    return pixels * values * 8 * 3
+    channels = 4 + 2 * (settings.replicates > 1)
+    channels += sum({"depth": 2, "samples": 1}.get(name, 3) for name in settings.layers)
+    channels += 3 * lamps if settings.lamps else 0
+    if settings.keep_spectra:
+        name, _, number = settings.sampling.partition(":")
+        channels += int(number) if number.isdigit() else 401
+    return pixels * (36 * channels + 4)
 
 
-def check_memory(settings: Settings, pixels: int) -> None:
+def check_memory(settings: Settings, pixels: int, lamps: int = 1) -> None:
     """Refuse an image that does not fit into the memory that is free.
 
     Raises:
         MachineError: one sentence with both amounts.
     """
-    needed, free = memory_needed(settings, pixels), machine.memory_available()
+    needed, free = memory_needed(settings, pixels, lamps), machine.memory_available()
     if free is not None and needed > free:
         raise MachineError(
             f"An image of {pixels:,} pixels with these layers needs about {machine.size(needed)} of memory, "
@@ -421,7 +447,7 @@ def render(
         sampling: how wavelengths are carried; default `uniform:32`; `1nm` is the reference.
         samples: paths for each pixel; default 64, or no limit with `time` or `error`.
         size: `(width, height)` in pixels, or `"960x540"`; default the camera's.
-        depth: largest number of bounces; default no limit.
+        depth: longest path in segments, default no limit; 1 shows lamps only, 2 direct light.
         seed: of the random numbers; default 0. The same seed gives the same bits, whatever the number of
             threads.
         threads: default 0, one for each processor.
@@ -442,7 +468,7 @@ def render(
         SceneError: the scene has mistakes; all of them are in `problems`.
         UsageError: an option cannot be, or does not go with the scene.
         MachineError: there is not enough memory, or no Embree.
-        Interrupted: Ctrl-C; the attribute `image` holds what was done.
+        RenderInterrupted: Ctrl-C; its attribute `image` holds what was done.
 
     Example:
         >>> image = render("scenes/cornell.toml", samples=256, layers="depth,normal")     # doctest: +SKIP
@@ -471,9 +497,7 @@ def render(
             on_partial(job.image())
     image = job.image()
     if job.interrupted:
-        stop = Interrupted("The render was interrupted; " + held(image) + ".")
-        stop.image = image  # type: ignore[attr-defined]
-        raise stop
+        raise RenderInterrupted(f"The render was interrupted; {held(image)}.", image)
     return image
 
 

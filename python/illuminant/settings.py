@@ -44,7 +44,7 @@ class Settings:
         sampling: how wavelengths are carried.
         samples: paths for each pixel; None while `time` or `error` decides.
         size: width and height in pixels; None keeps the camera's.
-        depth: largest number of bounces; None for no limit.
+        depth: longest path in segments; 1 shows lamps only, 2 direct light, None is no limit.
         seed: of the random numbers.
         threads: 0 for one a processor. Changes no bit of the image.
         filter: kind and radius in pixels of the reconstruction filter.
@@ -77,7 +77,8 @@ class Settings:
 
     def to_core(self) -> str:
         """The settings as the core takes them (JSON)."""
-        layers = [name for name in self.layers if name != "samples"]
+        # Where lamps are, the image has to know to find its white.
+        layers = ["emission", *(name for name in self.layers if name != "samples")]
         layers += ["spectra"] * self.keep_spectra + ["lamps"] * self.lamps
         kind, radius = self.filter
         return json.dumps(
@@ -140,7 +141,7 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         chosen["layers"] = _layers(chosen["layers"])
     for name, least, most in (
         ("samples", 1, 2**32 - 1),
-        ("depth", 0, 2**16 - 1),
+        ("depth", 1, 2**16 - 1),
         ("seed", 0, 2**63 - 1),
         ("threads", 0, 4096),
     ):

@@ -70,7 +70,11 @@ def render(
     ] = None,
     depth: Annotated[
         int | None,
-        typer.Option("--depth", metavar="N", help="Largest number of bounces (no limit)."),
+        typer.Option(
+            "--depth",
+            metavar="N",
+            help="Longest path in segments: 1 shows lamps only, 2 direct light (no limit).",
+        ),
     ] = None,
     filter: Annotated[
         str | None,

@@ -1,0 +1,131 @@
+"""`illuminant new`, `check`, `spectra` and `info`: all that needs no rendering."""
+
+import json
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from illuminant.cli import run
+
+Command = Callable[..., "subprocess.CompletedProcess[str]"]
+
+
+def test_a_scene_without_mistakes(scene: Path, command: Command) -> None:
+    done = command("check", scene)
+    assert (done.returncode, done.stdout, done.stderr) == (0, f"{scene}: no mistakes\n", "")
+
+
+def test_all_mistakes_are_reported_at_once(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene.write_text(
+        scene.read_text().replace("eye =", "eyes =").replace('spectrum = "A"', 'spectrum = "AA"')
+    )
+    assert run(["check", str(scene)]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) >= 2
+    assert any(line.startswith(f"{scene}:4: [camera] eyes: ") and "eye" in line for line in lines)
+    assert any("[materials.lamp] spectrum: " in line for line in lines)
+    assert run(["check", str(scene), "--json"]) == 1
+    assert len(json.loads(capsys.readouterr().out)) == len(lines)
+
+
+def test_a_missing_file_is_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "none.toml"
+    assert run(["check", str(path)]) in (1, 2)
+    captured = capsys.readouterr()
+    assert str(path) in captured.out + captured.err and (captured.out + captured.err).count("\n") == 1
+
+
+def test_check_needs_a_scene_or_prints_the_schema(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check"]) == 2
+    assert "Name a scene file" in capsys.readouterr().err
+    assert run(["check", "--schema"]) == 0
+    assert "field_of_view" in capsys.readouterr().out
+
+
+def test_new_writes_a_scene_that_has_no_mistakes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "room.toml"
+    assert run(["new", str(path)]) == 0
+    assert (
+        capsys.readouterr().err == f"{path} is written; make an image of it with: illuminant render {path}\n"
+    )
+    assert run(["check", str(path)]) == 0
+
+
+def test_new_never_overwrites(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = scene.read_text()
+    assert run(["new", str(scene)]) == 2
+    assert "exists already" in capsys.readouterr().err
+    assert scene.read_text() == before
+    assert run(["new", str(scene.with_suffix(".png"))]) == 2
+    assert "ends with .toml" in capsys.readouterr().err
+
+
+def test_info_says_what_was_found(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["info"]) == 0
+    out = capsys.readouterr().out
+    for word in ("illuminant", "Embree          4.", "x86-64-v3 found", "usable", "free of", "openimageio"):
+        assert word in out
+
+
+def test_info_says_what_to_do_about_what_was_not_found(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from illuminant import core, embree
+
+    monkeypatch.setenv(embree.VARIABLE, "/none/libembree4.so")
+    core.embree.cache_clear()
+    try:
+        assert run(["info"]) == 0
+    finally:
+        core.embree.cache_clear()
+    out = capsys.readouterr().out
+    assert "Embree          not found\n                -> ILLUMINANT_EMBREE names /none/libembree4.so" in out
+
+
+def test_info_of_what_is_no_image(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["info", str(scene)]) == 2
+    assert capsys.readouterr().err == f"Error: {scene} cannot be read: only .exr and .png are.\n"
+
+
+def test_the_library_is_listed_and_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["spectra", "list", "gold"]) == 0
+    assert capsys.readouterr().out.split() == ["gold.n", "n", "gold.k", "k"]
+    assert run(["spectra", "show", "D65"]) == 0
+    out = capsys.readouterr().out
+    assert "300 to 780 nm" in out and "     560  100\n" in out
+    assert run(["spectra", "show", "D6"]) == 2
+    assert "did you mean" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["frob"], "No such command 'frob' (see `illuminant --help`)."),
+        (["render"], "Missing argument 'SCENE' (see `illuminant render --help`)."),
+        (["render", "a.toml", "--smples", "3"], "No such option: --smples"),
+    ],
+)
+def test_a_wrong_command_line_is_one_sentence(
+    arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(arguments) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith(f"Error: {sentence}") and captured.err.count("\n") == 1
+
+
+@pytest.mark.parametrize("verb", ["new", "check", "render", "diff", "info", "spectra list", "spectra show"])
+def test_every_help_has_an_example_and_fits_80_columns(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([*verb.split(), "--help"]) == 0
+    out = capsys.readouterr().out
+    assert f"illuminant {verb} " in out.split("Example")[1]
+    assert max(map(len, out.splitlines())) <= 80
+
+
+def test_debug_shows_the_traceback(tmp_path: Path, command: Command) -> None:
+    done = command("render", tmp_path / "none.toml", "--debug")
+    assert done.returncode != 0 and "Traceback" in done.stderr
+    done = command("render", tmp_path / "none.toml")
+    assert done.returncode == 2 and "Traceback" not in done.stderr

@@ -1,0 +1,243 @@
+"""`illuminant render`: from a scene file to an image, and every way in which that can end."""
+
+import json
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from illuminant import png
+from illuminant.image import Image
+
+Command = Callable[..., "subprocess.CompletedProcess[str]"]
+PROGRAM = str(Path(sys.executable).with_name("illuminant"))
+
+
+def test_one_scene_two_files_and_a_closing_line(scene: Path, command: Command) -> None:
+    done = command("render", scene.name, "-o", "a.exr", "-o", "a.png", cwd=scene.parent)
+    assert (done.returncode, done.stdout) == (0, "")
+    closing, exposure = [line for line in done.stderr.splitlines() if not line.startswith("Warning: ")][:2]
+    assert re.fullmatch(
+        r"a\.exr, a\.png: [\d.]+ s, 8 samples per pixel, \S+ Msamples/s, \S+ Mrays/s, \d+ MB, "
+        r"spectral ΔE00 \S+ \(max \S+\), 0 dropped",
+        closing,
+    )
+    assert re.fullmatch(r"White, \S+ cd/m2, is shown as 0\.8; --exposure \S+ repeats it\.", exposure)
+    image = Image.open(scene.parent / "a.exr")
+    assert (image.width, image.height, image.unit) == (32, 24, "cd/m2")
+    assert image.settings["scene"] == "ball.toml" and image.settings["samples"] == 8
+    assert 1 < image.xyz[..., 1].mean() < 2000
+    assert png.read_header(scene.parent / "a.png").settings == image.settings
+
+
+def test_without_an_output_the_picture_is_named_by_the_scene(scene: Path, command: Command) -> None:
+    assert command("render", scene.name, "--samples", 1, cwd=scene.parent).returncode == 0
+    assert sorted(path.name for path in scene.parent.iterdir()) == ["ball.png", "ball.toml"]
+
+
+def test_the_exposure_and_the_command_in_the_header_repeat_the_picture(scene: Path, command: Command) -> None:
+    first = command("render", scene.name, "-o", "a.png", "--json", cwd=scene.parent)
+    facts = json.loads(first.stdout)
+    words = json.loads(command("info", "a.png", "--json", cwd=scene.parent).stdout)["remake"].split()
+    words[words.index("a.png")] = "b.png"
+    assert command(*words[1:], "--threads", "1", cwd=scene.parent).returncode == 0
+    assert (scene.parent / "a.png").read_bytes() == (scene.parent / "b.png").read_bytes()
+    assert png.read_header(scene.parent / "b.png").text["Exposure"] == f"{facts['exposure']:g}"
+
+
+def test_json_goes_to_stdout_and_says_everything(scene: Path, command: Command) -> None:
+    done = command("render", scene, "-o", scene.with_suffix(".png"), "--json")
+    facts = json.loads(done.stdout)
+    assert facts["files"] == [str(scene.with_suffix(".png"))]
+    assert facts["complete"] is True and facts["samples"] == 32 * 24 * 8 and facts["samples_per_pixel"] == 8
+    assert {"mean", "p95", "max"} <= set(facts["spectral_error"])
+    assert facts["seconds"] > 0 and facts["mrays_per_second"] > 0 and facts["peak_memory"] > 1e6
+
+
+def test_layers_lamps_and_lanes_are_channels(scene: Path, command: Command) -> None:
+    done = command(
+        "render", scene, "-o", scene.with_suffix(".exr"), "--layers", "depth,normal,albedo,samples", "--lamps",
+        "--keep-spectra", "--sampling", "uniform:8", "--size", "16x12",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    image = Image.open(scene.with_suffix(".exr"))
+    assert {"depth", "normal", "albedo", "samples", "spectra"} <= set(image.layers)
+    lamps = [layer for name, layer in image.layers.items() if name.startswith("lamp:")]
+    np.testing.assert_allclose(sum(lamps), image.xyz, rtol=1e-4, atol=1e-4)
+    assert image.wavelengths_nm is not None and len(image.wavelengths_nm) == 8
+    np.testing.assert_allclose(image.layers["spectra"] @ image.to_xyz.T, image.xyz, rtol=1e-4, atol=1e-4)
+    assert set(np.unique(image.layers["samples"])) == {8.0}
+    hit = np.linalg.norm(image.layers["normal"], axis=2)[6, 8]
+    assert hit == pytest.approx(1.0, abs=0.05)
+
+
+def test_layers_in_a_png_are_warned_of(scene: Path, command: Command) -> None:
+    done = command("render", scene, "-o", scene.with_suffix(".png"), "--layers", "depth", "--samples", 1)
+    assert "Warning: A PNG holds no layers: add -o FILE.exr to keep them.\n" in done.stderr
+
+
+def test_time_ends_the_work(scene: Path, command: Command) -> None:
+    done = command("render", scene, "-o", scene.with_suffix(".png"), "--time", "1s", "--json")
+    facts = json.loads(done.stdout)
+    assert done.returncode == 0 and facts["complete"]
+    assert 0.4 < facts["seconds"] < 1.5
+    assert facts["samples_per_pixel"] == facts["settings"]["samples"] > 8
+
+
+def test_error_ends_the_work_at_that_error(scene: Path, command: Command) -> None:
+    path = scene.with_suffix(".exr")
+    done = command("render", scene, "-o", path, "--error", "3%", "--json")
+    samples = json.loads(done.stdout)["settings"]["samples"]
+    assert done.returncode == 0 and samples >= 64
+    reference = scene.with_name("reference.exr")
+    assert command("render", scene, "-o", reference, "--samples", samples * 64, "--seed", 7).returncode == 0
+    truth = Image.open(reference).xyz[..., 1]
+    error = np.abs(Image.open(path).xyz[..., 1] - truth) / np.maximum(truth, truth.mean())
+    # 95 % of the pixels have a standard error below 3 %, so at most one in ten is off by more than 2 × 3 %.
+    assert (error < 0.06).mean() > 0.9
+
+
+def test_one_path_is_followed_again(scene: Path, command: Command) -> None:
+    done = command("render", scene, "--pixel", "16,12", "--sample", 3, "--json")
+    assert done.returncode == 0 and len(json.loads(done.stdout)) >= 1
+    assert command("render", scene, "--pixel", "16,12", "--sample", 3).stdout.startswith("  0  ")
+    assert [path.name for path in scene.parent.iterdir()] == ["ball.toml"]
+    done = command("render", scene, "--pixel", "32,0")
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "--pixel 32,0: the image has 32x24 pixels, counted from 0,0." in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["none.toml"], "none.toml"),
+        (["ball.toml", "-o", "none/a.png"], "there is no folder none."),
+        (["ball.toml", "-o", "."], "it is a folder"),
+        (["ball.toml", "-o", "a.jpg"], "saved as .exr"),
+        (["ball.toml", "--size", "1000000000x1000000000"], "that is 1e+18 pixels"),
+        (["ball.toml", "--samples", "0"], "--samples 0: expected a whole number"),
+        (["ball.toml", "--exposure", "-1"], "--exposure -1: expected a positive number."),
+        (["ball.toml", "--rgb", "CMYK"], "no RGB system 'CMYK'"),
+        (["ball.toml", "--bits", "12"], "8 or 16 bits"),
+        (["ball.toml", "--sampling", "uniform:99"], "99"),
+        (["ball.toml", "--sampling", "rainbow"], "rainbow"),
+        (["ball.toml", "--technique", "magic"], "magic"),
+        (["ball.toml", "--illumination", "candle"], "candle"),
+    ],
+)
+def test_wrong_input_is_one_sentence_before_the_work(
+    scene: Path, command: Command, arguments: list[str], sentence: str
+) -> None:
+    done = command("render", *arguments, cwd=scene.parent)
+    assert done.returncode == 2
+    assert sentence in done.stderr and done.stderr.startswith("Error: ") and done.stderr.count("\n") == 1
+    assert [path.name for path in scene.parent.iterdir()] == ["ball.toml"]
+
+
+def test_all_mistakes_of_a_scene_are_errors_with_their_lines(scene: Path, command: Command) -> None:
+    scene.write_text(scene.read_text().replace("eye =", "eyes =").replace('"diffuse"', '"difuse"'))
+    done = command("render", scene.name, cwd=scene.parent)
+    assert done.returncode == 2
+    assert all(line.startswith("Error: ball.toml:") for line in done.stderr.splitlines())
+    assert done.stderr.count("\n") >= 2
+
+
+def wait_for_work(process: "subprocess.Popen[str]") -> None:
+    """Until the process has computed for a while (its threads have used more than a second)."""
+    began = time.monotonic()
+    while time.monotonic() - began < 30:
+        fields = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+        if (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK") > 2.0:
+            return
+        time.sleep(0.05)
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_writes_what_is_done(scene: Path, number: signal.Signals) -> None:
+    path = scene.with_suffix(".exr")
+    process = subprocess.Popen(
+        [PROGRAM, "render", str(scene), "-o", str(path), "--samples", "100000000", "--layers", "samples"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    wait_for_work(process)
+    began = time.monotonic()
+    process.send_signal(number)
+    _, err = process.communicate(timeout=30)
+    assert time.monotonic() - began < 5
+    assert process.returncode == 130
+    assert re.search(
+        r"Interrupted: every pixel holds \d+ samples( or more, \S+ on average)?; the image so far", err
+    )
+    image = Image.open(path)
+    assert image.xyz.min() >= 0 and image.layers["samples"].min() >= 4
+    assert sorted(item.name for item in scene.parent.iterdir()) == ["ball.exr", "ball.toml"]
+
+
+def test_progress_shows_only_on_a_terminal(scene: Path) -> None:
+    arguments = ["render", str(scene), "-o", str(scene.with_suffix(".png")), "--time", "1s"]
+    assert (
+        "\x1b" not in subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=True).stderr
+    )
+    child, terminal = pty.fork()
+    if child == 0:
+        os.execv(PROGRAM, [PROGRAM, *arguments])
+    shown = b""
+    while select.select([terminal], [], [], 30)[0]:
+        try:
+            part = os.read(terminal, 4096)
+        except OSError:
+            break
+        if not part:
+            break
+        shown += part
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    text = shown.decode()
+    assert "Msamples/s" in text and " left" in text and "ball.toml" in text
+    assert "0:00 left" in text.splitlines()[-3] or "is shown as 0.8" in text
+
+
+def test_python_renders_the_same_bits(scene: Path, command: Command) -> None:
+    import illuminant
+
+    partial: list[int] = []
+    image = illuminant.render(
+        scene, samples=20, on_partial=lambda image: partial.append(image.settings["samples"]), threads=1
+    )
+    assert partial == [4, 16, 20]
+    assert image.statistics["samples_per_pixel"] == 20
+    command("render", scene, "-o", scene.with_suffix(".exr"), "--samples", 20)
+    assert np.array_equal(Image.open(scene.with_suffix(".exr")).xyz, image.xyz.astype(np.float32))
+
+
+def test_a_render_can_be_watched_and_stopped_from_python(scene: Path) -> None:
+    from illuminant.rendering import progressive, render
+
+    seen: list[float] = []
+    image = render(scene, samples=10**6, progress=lambda now: seen.append(now.samples) or len(seen) < 3)
+    assert len(seen) == 3 and image.statistics["samples_per_pixel"] < 10**6
+    images = list(progressive(scene, samples=64))
+    assert [item.settings["samples"] for item in images] == [4, 16, 64]
+    assert not np.array_equal(images[0].xyz, images[1].xyz)
+
+
+def test_ctrl_c_in_python_raises_with_the_image(scene: Path) -> None:
+    from illuminant.rendering import RenderInterrupted, render
+
+    def interrupt(now: object) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(RenderInterrupted, match=r"(every pixel holds|some pixels hold)") as caught:
+        render(scene, samples=10**6, progress=interrupt)
+    assert isinstance(caught.value.image, Image)
