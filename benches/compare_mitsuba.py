@@ -124,9 +124,10 @@ def _start(name: str, exported: Path, options: argparse.Namespace) -> list[Conte
         command = [str(peer), str(BENCHES / "mitsuba_peer.py"), str(exported), *PEERS[label], *limits]
         process = RendererProcess(command)
         version = str(process.opening["name"])
-        # The sampler does not change what is converged to, but its noise is then tested against its own family too.
+        # The sampler does not change what is converged to: its reference is that of its variant.
+        variant = PEERS[label][1]
         contenders.append(
-            Contender(f"Mitsuba {label}", process, " ".join([scene, version, *PEERS[label], *limits]))
+            Contender(f"Mitsuba {label}", process, " ".join([scene, version, variant, *limits]))
         )
     for contender in contenders:
         contender.process.render(seed=1, samples=options.samples)
