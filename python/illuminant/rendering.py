@@ -368,7 +368,7 @@ def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
     channels += sum({"depth": 2, "samples": 1}.get(name, 3) for name in settings.layers)
     channels += 3 * lamps if settings.lamps else 0
     if settings.keep_spectra:
-        name, _, number = settings.sampling.partition(":")
+        _, _, number = settings.sampling.partition(":")
         channels += int(number) if number.isdigit() else 401
     return pixels * (36 * channels + 4)
 
