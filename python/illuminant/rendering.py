@@ -391,6 +391,14 @@ def _sentence(error: Exception) -> str:
     return str(error).strip().rstrip(".") + "."
 
 
+def _log_warnings(job: Job) -> None:
+    """Say in the log `illuminant` what does not suit the scene; Python shows it on stderr if nobody listens."""
+    import logging
+
+    for text in job.warnings():
+        logging.getLogger("illuminant").warning(text)
+
+
 def progressive(
     scene: Scene | str | os.PathLike[str], *, progress: OnProgress | None = None, **options: Any
 ) -> Iterator[Image]:
@@ -410,6 +418,7 @@ def progressive(
         ...     image.save("preview.png")
     """
     job = Job(scene, **options)
+    _log_warnings(job)
     for _ in job.passes(progress):
         yield job.image()
     if job.interrupted or job.stopped:
@@ -438,7 +447,8 @@ def render(
 ) -> Image:
     """Render a scene.
 
-    Options that are not given are the scene's own (its table `[render]`), else the defaults named here.
+    Options that are not given are the scene's own (its table `[render]`), else the defaults named here. What in them
+    does not suit the scene (an even sampling for a lamp with lines, say) goes to the log `illuminant`.
 
     Args:
         scene: a `Scene`, or the path of a scene file.
@@ -492,6 +502,7 @@ def render(
         time=time,
         error=error,
     )
+    _log_warnings(job)
     for _ in job.passes(progress):
         if on_partial is not None:
             on_partial(job.image())
