@@ -38,9 +38,9 @@ def check(
         return
     if not scenes:
         raise UsageError("Name a scene file, or use --schema to print what may stand in one.")
-    for path in scenes:
-        if not path.is_file():
-            raise UsageError(f"{path}: there is no such file.")
+    for scene in scenes:
+        if not scene.is_file():
+            raise UsageError(f"{scene}: there is no such file.")
     problems = {str(path): list(scene_file.check(path)) for path in scenes}
     count = sum(len(found) for found in problems.values())
     if json:

@@ -75,7 +75,7 @@ def show(
         return
     first, last = spectrum.range_nm
     typer.echo(
-        f"{spectrum.name}: {spectrum.unit or 'no unit'}, {first:g} to {last:g} nm, outside: {spectrum.outside}"
+        f"{spectrum.name}: {'no unit' if spectrum.unit in ('', '1') else spectrum.unit}, {first:g} to {last:g} nm, outside: {spectrum.outside}"
     )
     if spectrum.provenance:
         typer.echo(spectrum.provenance)
