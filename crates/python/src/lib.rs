@@ -6,7 +6,9 @@
 mod arrays;
 mod color;
 mod display;
+mod scene;
 mod spectrum;
+mod technique;
 mod toml;
 
 use pyo3::prelude::*;
@@ -19,5 +21,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     spectrum::register(m)?;
     color::register(m)?;
     display::register(m)?;
+    scene::register(m)?;
+    technique::register(m)?;
     Ok(())
 }

@@ -1,1 +1,19 @@
-//! placeholder
+//! What is in front of the camera: shapes and where they stand, materials, lamps, the camera, and ray queries.
+
+mod camera;
+pub mod description;
+pub mod embree;
+mod environment;
+mod geometry;
+mod lamp;
+mod motion;
+mod photometry;
+mod scene;
+
+pub use camera::{Camera, CameraError};
+pub use environment::EnvironmentImage;
+pub use geometry::{Geometry, GeometryError, Hit, Mesh, Placement, Ray, Shape, SurfacePoint};
+pub use lamp::{ByFlux, Lamp, LampChooser, LampForm, LampSample, SurfaceLamp};
+pub use motion::Motion;
+pub use photometry::{Quantity, Source, absolute_spectrum};
+pub use scene::{ImageData, Object, Scene, SceneError};

@@ -1,0 +1,199 @@
+//! `technique`: renders.
+
+use crate::scene::PyScene;
+use illuminant_technique::{Progress, Render, RenderError, Settings, Vertex};
+use numpy::ndarray::{Array2, Array3};
+use numpy::{PyArray1, PyArray2, PyArray3, ToPyArray};
+use pyo3::exceptions::{PyMemoryError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// A render under way.
+#[pyclass(name = "Render", module = "illuminant._core")]
+pub(crate) struct PyRender(Render);
+
+fn shaped<T>(result: Result<T, numpy::ndarray::ShapeError>) -> PyResult<T> {
+    result.map_err(|e| PyMemoryError::new_err(e.to_string()))
+}
+
+fn vertex<'py>(py: Python<'py>, render: &Render, vertex: &Vertex) -> PyResult<Bound<'py, PyDict>> {
+    let object = &render.scene().objects[vertex.object as usize];
+    let dict = PyDict::new(py);
+    dict.set_item("object", &object.name)?;
+    dict.set_item("material", &render.scene().materials[object.material].name)?;
+    dict.set_item("primitive", vertex.primitive)?;
+    dict.set_item("position", vertex.position.to_array())?;
+    dict.set_item("throughput", vertex.throughput.clone())?;
+    dict.set_item("added", vertex.added.clone())?;
+    Ok(dict)
+}
+
+#[pymethods]
+impl PyRender {
+    #[new]
+    fn new(py: Python<'_>, scene: &PyScene, settings: &str) -> PyResult<Self> {
+        let mut reader = serde_json::Deserializer::from_str(settings);
+        let settings: Settings = serde_path_to_error::deserialize(&mut reader)
+            .map_err(|e| PyValueError::new_err(format!("{}: {}", e.path(), e.inner())))?;
+        let scene = Arc::clone(&scene.0);
+        let render = py.detach(|| Render::new(scene, settings));
+        Ok(Self(render.map_err(|e: RenderError| PyValueError::new_err(e.to_string()))?))
+    }
+
+    /// Renders samples first..last of every pixel; `progress(fraction)` is called about ten times a second on this
+    /// thread, and may return False to cancel, as may Ctrl-C (which is raised). True when complete.
+    #[pyo3(signature = (first, last, progress=None))]
+    fn run(
+        &mut self,
+        py: Python<'_>,
+        first: u64,
+        last: u64,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<bool> {
+        if last < first {
+            return Err(PyValueError::new_err(format!(
+                "samples run from {first} to {last}, which is backwards"
+            )));
+        }
+        let shared = Progress::default();
+        let render = &mut self.0;
+        let (sender, receiver) = std::sync::mpsc::channel();
+        // Behind a lock, since the interpreter wants to see only what threads may share.
+        let receiver = std::sync::Mutex::new(receiver);
+        std::thread::scope(|scope| {
+            let shared = &shared;
+            let worker = scope.spawn(move || {
+                let complete = render.run(first..last, shared);
+                let _ = sender.send(());
+                complete
+            });
+            let mut raised = None;
+            loop {
+                let finished = py.detach(|| wait(&receiver));
+                if finished {
+                    break;
+                }
+                if raised.is_some() {
+                    continue;
+                }
+                let outcome = py.check_signals().and_then(|()| match &progress {
+                    Some(callback) => {
+                        Ok(callback.call1((shared.fraction(),))?.is(pyo3::types::PyBool::new(py, false)))
+                    }
+                    None => Ok(false),
+                });
+                match outcome {
+                    Ok(false) => {}
+                    Ok(true) => shared.cancel(),
+                    Err(error) => {
+                        shared.cancel();
+                        raised = Some(error);
+                    }
+                }
+            }
+            let complete = worker
+                .join()
+                .map_err(|_| pyo3::exceptions::PyRuntimeError::new_err("a render thread died"))?;
+            raised.map_or(Ok(complete), Err)
+        })
+    }
+
+    /// The names of the layers.
+    fn layers(&self) -> Vec<String> {
+        let kept = |name: &&illuminant_technique::LayerPlan| name.name != "halves";
+        self.0.film().plan.iter().filter(kept).map(|plan| plan.name.clone()).collect()
+    }
+
+    /// The mean of a layer, (h, w, channels).
+    fn layer<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let (values, channels) = self.0.film().layer(name).ok_or_else(|| {
+            PyValueError::new_err(format!("no layer {name:?}; there are {}", self.layers().join(", ")))
+        })?;
+        let [w, h] = self.0.film().size();
+        Ok(shaped(Array3::from_shape_vec((h, w, channels), values))?.to_pyarray(py))
+    }
+
+    /// Samples that each pixel holds, (h, w).
+    fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
+        let [w, h] = self.0.film().size();
+        Ok(shaped(Array2::from_shape_vec((h, w), self.0.film().samples()))?.to_pyarray(py))
+    }
+
+    /// Standard error of Y, (h, w); needs replicates = 2.
+    fn standard_error<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let values = self.0.film().standard_error();
+        let values = values.ok_or_else(|| PyValueError::new_err("the error needs replicates = 2"))?;
+        let [w, h] = self.0.film().size();
+        Ok(shaped(Array2::from_shape_vec((h, w), values))?.to_pyarray(py))
+    }
+
+    /// What has been done so far.
+    fn statistics<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let statistics = self.0.statistics();
+        let dict = PyDict::new(py);
+        dict.set_item("seconds", statistics.elapsed.as_secs_f64())?;
+        dict.set_item("samples", statistics.samples)?;
+        dict.set_item("rays", statistics.closest + statistics.occlusion)?;
+        dict.set_item("closest", statistics.closest)?;
+        dict.set_item("occlusion", statistics.occlusion)?;
+        dict.set_item("dropped", statistics.dropped)?;
+        let details = statistics.details.iter().map(|dropped| {
+            let dict = PyDict::new(py);
+            dict.set_item("pixel", dropped.pixel)?;
+            dict.set_item("sample", dropped.sample)?;
+            dict.set_item("object", &dropped.object)?;
+            dict.set_item("material", &dropped.material)?;
+            Ok(dict)
+        });
+        dict.set_item("dropped_samples", details.collect::<PyResult<Vec<_>>>()?)?;
+        Ok(dict)
+    }
+
+    /// The wavelength that stands for each spectral sample, nm.
+    fn wavelengths<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        let basis = self.0.basis();
+        PyArray1::from_iter(py, (0..basis.len()).map(|i| basis.wavelength_nm(i)))
+    }
+
+    /// The map from spectral samples to XYZ for light of a lamp, (3, N).
+    #[pyo3(signature = (lamp=0))]
+    fn to_xyz<'py>(&self, py: Python<'py>, lamp: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows = self.0.basis().to_xyz(lamp);
+        let flat: Vec<f64> = rows.iter().flatten().copied().collect();
+        Ok(shaped(Array2::from_shape_vec((3, flat.len() / 3), flat))?.to_pyarray(py))
+    }
+
+    /// The vertices of the path of one sample of one pixel, pass by pass, and what it brought.
+    fn replay<'py>(&self, py: Python<'py>, x: u32, y: u32, sample: u64) -> PyResult<Bound<'py, PyDict>> {
+        let [x0, y0, x1, y1] = self.0.film().crop;
+        if !((x0..x1).contains(&x) && (y0..y1).contains(&y)) {
+            return Err(PyValueError::new_err(format!(
+                "pixel {x},{y} lies outside the image, whose pixels run from {x0},{y0} to {},{}",
+                x1 - 1,
+                y1 - 1
+            )));
+        }
+        let replay = py.detach(|| self.0.replay([x, y], sample));
+        let passes = replay
+            .passes
+            .iter()
+            .map(|vertices| vertices.iter().map(|v| vertex(py, &self.0, v)).collect::<PyResult<Vec<_>>>());
+        let dict = PyDict::new(py);
+        dict.set_item("passes", passes.collect::<PyResult<Vec<_>>>()?)?;
+        dict.set_item("xyz", replay.xyz)?;
+        dict.set_item("spectrum", replay.spectrum)?;
+        Ok(dict)
+    }
+}
+
+/// Waits for the end of a run, a tenth of a second at most; whether it came.
+fn wait(receiver: &std::sync::Mutex<std::sync::mpsc::Receiver<()>>) -> bool {
+    let receiver = receiver.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    receiver.recv_timeout(Duration::from_millis(100)) != Err(std::sync::mpsc::RecvTimeoutError::Timeout)
+}
+
+pub(crate) fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add_class::<PyRender>()
+}

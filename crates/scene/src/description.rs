@@ -1,0 +1,227 @@
+//! A resolved scene as plain data: what is written, sent, hashed, and made into a [`crate::Scene`].
+
+use crate::photometry::Quantity;
+use illuminant_spectrum::{Outside, SpectralRange};
+use serde::{Deserialize, Serialize};
+
+/// Everything but shapes, placements and images.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Description {
+    /// The wavelengths over which light is followed, nm.
+    #[serde(default)]
+    pub range: SpectralRange,
+    /// All curves; the rest refers to them by index.
+    pub curves: Vec<CurveData>,
+    /// All materials.
+    pub materials: Vec<MaterialData>,
+    /// One for each placement, in the same order.
+    pub objects: Vec<ObjectData>,
+    /// Lamps that are no objects.
+    #[serde(default)]
+    pub lights: Vec<LightData>,
+    /// The camera.
+    pub camera: CameraData,
+}
+
+/// A curve on wavelength.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CurveData {
+    /// The name that messages use.
+    #[serde(default)]
+    pub name: String,
+    /// nm, increasing.
+    pub wavelengths: Vec<f64>,
+    /// One for each wavelength.
+    pub values: Vec<f64>,
+    /// The rule outside.
+    pub outside: Outside,
+}
+
+/// A material; curves are indices.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum MaterialData {
+    /// An ideal diffuser.
+    Diffuse {
+        /// The name that messages use.
+        name: String,
+        /// Reflectance, in [0, 1].
+        reflectance: usize,
+    },
+    /// A conductor.
+    Conductor {
+        /// The name that messages use.
+        name: String,
+        /// Real part of the index.
+        n: usize,
+        /// Imaginary part.
+        k: usize,
+        /// Slope parameter α, 0 to 1.
+        #[serde(default)]
+        roughness: f64,
+    },
+    /// A dielectric body.
+    Dielectric {
+        /// The name that messages use.
+        name: String,
+        /// Index of refraction.
+        n: usize,
+        /// Slope parameter α, 0 to 1.
+        #[serde(default)]
+        roughness: f64,
+        /// Absorption coefficient, 1/m.
+        #[serde(default)]
+        absorption: Option<usize>,
+        /// Whether the index follows the curve.
+        #[serde(default = "yes")]
+        dispersion: bool,
+    },
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// What an object is made of, and what it emits.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObjectData {
+    /// The name that messages use.
+    pub name: String,
+    /// Index of its material.
+    pub material: usize,
+    /// Its emission, if it is a lamp.
+    #[serde(default)]
+    pub emission: Option<EmissionData>,
+}
+
+/// The emission of a surface.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EmissionData {
+    /// Index of the curve.
+    pub spectrum: usize,
+    /// How bright.
+    pub quantity: Quantity,
+    /// Which sides emit.
+    #[serde(default)]
+    pub sides: Sides,
+}
+
+/// The sides of a surface that emit; the front is where its corners run counter-clockwise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Sides {
+    /// The front only.
+    #[default]
+    Front,
+    /// Both.
+    Both,
+}
+
+/// A lamp that is no object.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum LightData {
+    /// A point.
+    Point {
+        /// The name that messages use.
+        name: String,
+        /// Where.
+        position: [f32; 3],
+        /// Index of the curve.
+        spectrum: usize,
+        /// How bright.
+        quantity: Quantity,
+    },
+    /// A point that shines into a cone.
+    Spot {
+        /// The name that messages use.
+        name: String,
+        /// Where.
+        position: [f32; 3],
+        /// Along its axis.
+        direction: [f32; 3],
+        /// From the axis to the end of the light, degrees.
+        half_angle_deg: f64,
+        /// Over which it fades, inside the half-angle, degrees.
+        #[serde(default)]
+        penumbra_deg: f64,
+        /// Index of the curve.
+        spectrum: usize,
+        /// How bright.
+        quantity: Quantity,
+    },
+    /// Parallel light.
+    Directional {
+        /// The name that messages use.
+        name: String,
+        /// The direction in which it travels.
+        direction: [f32; 3],
+        /// Index of the curve.
+        spectrum: usize,
+        /// How bright.
+        quantity: Quantity,
+    },
+    /// Light from all around.
+    Environment {
+        /// The name that messages use.
+        name: String,
+        /// Index of the curve; with an image it may be left out, for the white of its RGB system.
+        #[serde(default)]
+        spectrum: Option<usize>,
+        /// How bright: with an image, RGB (1, 1, 1).
+        quantity: Quantity,
+        /// Key of the image.
+        #[serde(default)]
+        image: Option<String>,
+        /// What RGB means.
+        #[serde(default = "srgb")]
+        rgb_system: String,
+        /// The axis that points to the zenith.
+        #[serde(default)]
+        up: UpAxis,
+        /// Turn about that axis, degrees, counter-clockwise seen from the zenith.
+        #[serde(default)]
+        rotation_deg: f64,
+    },
+}
+
+fn srgb() -> String {
+    "sRGB".into()
+}
+
+/// Which axis of the world points up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum UpAxis {
+    /// y.
+    #[default]
+    Y,
+    /// z.
+    Z,
+}
+
+/// The camera.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraData {
+    /// Where it is.
+    pub eye: [f64; 3],
+    /// Where it looks.
+    pub target: [f64; 3],
+    /// What is up in the image.
+    pub up: [f64; 3],
+    /// Across the width, degrees.
+    pub field_of_view_deg: f64,
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// x₀, y₀, x₁, y₁.
+    #[serde(default)]
+    pub crop: Option<[u32; 4]>,
+    /// Opening and closing, as fractions of the motion.
+    #[serde(default)]
+    pub shutter: [f32; 2],
+}

@@ -1,0 +1,464 @@
+//! Lamps: where light comes from, how a point asks for it, and with what density it is asked.
+
+use crate::environment::EnvironmentImage;
+use crate::geometry::{Geometry, Hit, SurfacePoint};
+use glam::{Vec2, Vec3};
+use illuminant_optics::spherical_rectangle::SphericalRectangle;
+use illuminant_optics::spherical_triangle::SphericalTriangle;
+use illuminant_spectrum::Curve;
+use std::f32::consts::{PI, TAU};
+
+/// A lamp: a name, its absolute spectrum, and its form.
+#[derive(Debug)]
+pub struct Lamp {
+    /// The name that messages and layers use.
+    pub name: String,
+    /// Absolute spectrum: radiance of surfaces and environments, intensity of points and spots (on the axis),
+    /// irradiance on a facing surface of parallel light. For an image it is the radiance of RGB (1, 1, 1).
+    pub spectrum: Curve,
+    /// Where the light leaves from.
+    pub form: LampForm,
+}
+
+/// The form of a lamp.
+#[derive(Debug)]
+pub enum LampForm {
+    /// An object whose surface emits.
+    Surface(SurfaceLamp),
+    /// A point.
+    Point {
+        /// Where it is.
+        position: Vec3,
+    },
+    /// A point that shines into a cone.
+    Spot {
+        /// Where it is.
+        position: Vec3,
+        /// Unit vector along its axis.
+        axis: Vec3,
+        /// Cosines of the angles from the axis where light begins to fade, and where it ends.
+        cos_full: f32,
+        /// See `cos_full`.
+        cos_end: f32,
+    },
+    /// Parallel light that travels along this unit vector.
+    Parallel {
+        /// The direction of travel.
+        direction: Vec3,
+    },
+    /// The same radiance from everywhere.
+    Uniform,
+    /// An image of the surroundings.
+    Image(Box<EnvironmentImage>),
+}
+
+/// The smooth edge of a spot: 1 inside, 0 outside, a cubic between.
+#[inline(always)]
+fn spot_falloff(cos: f32, cos_full: f32, cos_end: f32) -> f32 {
+    let t = ((cos - cos_end) / (cos_full - cos_end).max(1e-9)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// An emitting object, in the form in which directions to it are drawn.
+#[derive(Debug)]
+pub struct SurfaceLamp {
+    /// Which object.
+    pub object: usize,
+    /// Whether both sides emit.
+    pub two_sided: bool,
+    /// Area, m² (one side).
+    pub area: f64,
+    outline: Outline,
+}
+
+#[derive(Debug)]
+enum Outline {
+    Rectangle {
+        corner: Vec3,
+        x: Vec3,
+        y: Vec3,
+        size: [f32; 2],
+        normal: Vec3,
+    },
+    Sphere {
+        center: Vec3,
+        radius: f32,
+    },
+    /// Triangles with running sums of their area, from 0 to 1.
+    Triangles {
+        sums: Vec<f32>,
+        areas: Vec<f32>,
+    },
+}
+
+/// Below this solid angle (sr) a lamp is small enough to be sampled by area, and f32 too coarse for its angles.
+const SMALL: f32 = 5e-3;
+
+/// What a point is told of a lamp.
+#[derive(Clone, Copy, Debug)]
+pub struct LampSample {
+    /// Unit vector from the point to the light.
+    pub direction: Vec3,
+    /// Where the light leaves from; `None` for light from afar.
+    pub target: Option<Vec3>,
+    /// Density of the direction, 1/sr; `None` for points and parallel light, which no chance direction meets.
+    pub pdf: Option<f32>,
+    /// What the lamp's spectrum is multiplied by: falloff, 1/r².
+    pub scale: f32,
+    /// Where in an environment image.
+    pub uv: Option<Vec2>,
+}
+
+impl SurfaceLamp {
+    /// The lamp that an object is.
+    #[must_use]
+    pub fn new(geometry: &Geometry, object: usize, two_sided: bool) -> Self {
+        if let Some((center, radius)) = geometry.sphere(object) {
+            let area = 4.0 * std::f64::consts::PI * f64::from(radius) * f64::from(radius);
+            return Self { object, two_sided, area, outline: Outline::Sphere { center, radius } };
+        }
+        let count = geometry.primitives(object);
+        let corners = |i: usize| geometry.triangle(object, i, 0.0).unwrap_or_default();
+        let areas: Vec<f32> = (0..count)
+            .map(|i| {
+                let [a, b, c] = corners(i);
+                0.5 * (b - a).cross(c - a).length()
+            })
+            .collect();
+        let area: f64 = areas.iter().map(|&a| f64::from(a)).sum();
+        let outline = (count == 2 && geometry.is_static(object))
+            .then(|| rectangle(corners(0), corners(1)))
+            .flatten()
+            .unwrap_or_else(|| {
+                let mut sum = 0.0f64;
+                let sums = areas.iter().map(|&a| {
+                    sum += f64::from(a);
+                    (sum / area) as f32
+                });
+                Outline::Triangles { sums: sums.collect(), areas: areas.clone() }
+            });
+        Self { object, two_sided, area, outline }
+    }
+
+    fn emits_towards(&self, normal: Vec3, direction_from_point: Vec3) -> bool {
+        self.two_sided || normal.dot(direction_from_point) < 0.0
+    }
+
+    /// A direction from a point to the lamp.
+    #[inline]
+    fn sample(&self, geometry: &Geometry, from: Vec3, time: f32, u: [f32; 2]) -> Option<LampSample> {
+        let (target, normal, pdf) = match &self.outline {
+            Outline::Rectangle { corner, x, y, size, normal } => {
+                if !self.two_sided && normal.dot(from - *corner) <= 0.0 {
+                    return None;
+                }
+                let seen = SphericalRectangle::new(
+                    corner.to_array(),
+                    x.to_array(),
+                    y.to_array(),
+                    *size,
+                    from.to_array(),
+                );
+                match seen.filter(|s| s.solid_angle() > SMALL) {
+                    Some(seen) => (Vec3::from(seen.sample(u)), *normal, seen.solid_angle().recip()),
+                    None => {
+                        let target = *corner + *x * (u[0] * size[0]) + *y * (u[1] * size[1]);
+                        (target, *normal, by_area(from, target, *normal, size[0] * size[1])?)
+                    }
+                }
+            }
+            Outline::Sphere { center, radius } => {
+                let (target, normal, pdf) = sample_sphere(*center, *radius, from, u)?;
+                (target, normal, pdf)
+            }
+            Outline::Triangles { sums, areas } => {
+                let i = sums.partition_point(|&s| s <= u[0]).min(sums.len() - 1);
+                let low = if i == 0 { 0.0 } else { sums[i - 1] };
+                let probability = sums[i] - low;
+                let u = [((u[0] - low) / probability).clamp(0.0, 1.0 - f32::EPSILON), u[1]];
+                let [a, b, c] = geometry.triangle(self.object, i, time)?;
+                let normal = (b - a).cross(c - a).normalize_or_zero();
+                let seen = SphericalTriangle::new([a, b, c].map(|p| p.to_array()), from.to_array());
+                match seen.filter(|s| s.solid_angle() > SMALL) {
+                    Some(seen) => {
+                        let direction = Vec3::from(seen.sample(u));
+                        let distance = (a - from).dot(normal) / direction.dot(normal);
+                        if !(distance > 0.0 && distance.is_finite()) {
+                            return None;
+                        }
+                        (from + direction * distance, normal, probability / seen.solid_angle())
+                    }
+                    None => {
+                        let s = u[0].sqrt();
+                        let target = a * (1.0 - s) + b * (s * (1.0 - u[1])) + c * (s * u[1]);
+                        (target, normal, probability * by_area(from, target, normal, areas[i])?)
+                    }
+                }
+            }
+        };
+        let direction = (target - from).normalize_or_zero();
+        if direction == Vec3::ZERO || !self.emits_towards(normal, direction) {
+            return None;
+        }
+        // Stop short of the lamp's own surface.
+        let target = target
+            + normal
+                * (1e-5 * (target.abs().max_element() + (target - from).length()))
+                    .copysign(-normal.dot(direction));
+        Some(LampSample { direction, target: Some(target), pdf: Some(pdf), scale: 1.0, uv: None })
+    }
+
+    /// The density, 1/sr, with which `sample` draws the direction in which a ray from a point has met the lamp.
+    #[inline]
+    fn pdf(&self, geometry: &Geometry, from: Vec3, time: f32, hit: &Hit, target: &SurfacePoint) -> f32 {
+        match &self.outline {
+            Outline::Rectangle { corner, x, y, size, normal } => {
+                let seen = SphericalRectangle::new(
+                    corner.to_array(),
+                    x.to_array(),
+                    y.to_array(),
+                    *size,
+                    from.to_array(),
+                );
+                seen.filter(|s| s.solid_angle() > SMALL).map_or_else(
+                    || by_area(from, target.position, *normal, size[0] * size[1]).unwrap_or(0.0),
+                    |seen| seen.solid_angle().recip(),
+                )
+            }
+            Outline::Sphere { center, radius } => sphere_pdf(*center, *radius, from, target),
+            Outline::Triangles { sums, areas } => {
+                let i = hit.primitive as usize;
+                let probability = sums[i] - if i == 0 { 0.0 } else { sums[i - 1] };
+                let Some(corners) = geometry.triangle(self.object, i, time) else { return 0.0 };
+                let seen = SphericalTriangle::new(corners.map(|p| p.to_array()), from.to_array());
+                probability
+                    * seen.filter(|s| s.solid_angle() > SMALL).map_or_else(
+                        || by_area(from, target.position, target.geometric_normal, areas[i]).unwrap_or(0.0),
+                        |seen| seen.solid_angle().recip(),
+                    )
+            }
+        }
+    }
+}
+
+/// Two triangles as a rectangle, if they are one.
+fn rectangle(first: [Vec3; 3], second: [Vec3; 3]) -> Option<Outline> {
+    let normal = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).normalize_or_zero();
+    let n = normal(first);
+    if n == Vec3::ZERO || n.dot(normal(second)) < 1.0 - 1e-6 {
+        return None;
+    }
+    // The corner of the first triangle with the right angle; the other two are the diagonal.
+    let (i, _) = (0..3)
+        .map(|i| {
+            let (to_next, to_last) = (first[(i + 1) % 3] - first[i], first[(i + 2) % 3] - first[i]);
+            (i, to_next.normalize_or_zero().dot(to_last.normalize_or_zero()).abs())
+        })
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .filter(|(_, cos)| *cos < 1e-5)?;
+    let [corner, p, q] = [first[i], first[(i + 1) % 3], first[(i + 2) % 3]];
+    let opposite = p + q - corner;
+    let size = (p - corner).length().max((q - corner).length());
+    let same = |a: Vec3, b: Vec3| (a - b).length() < 1e-5 * size;
+    let completes = [p, q, opposite].iter().all(|wanted| second.iter().any(|have| same(*have, *wanted)));
+    let (x, y) = (p - corner, q - corner);
+    completes.then(|| Outline::Rectangle {
+        corner,
+        x: x.normalize(),
+        y: y.normalize(),
+        size: [x.length(), y.length()],
+        normal: n,
+    })
+}
+
+/// Density of directions for points uniform over an area: r² / (A |cos|).
+#[inline(always)]
+fn by_area(from: Vec3, target: Vec3, normal: Vec3, area: f32) -> Option<f32> {
+    let d = target - from;
+    let r2 = d.length_squared();
+    let cos = normal.dot(d).abs() / r2.sqrt();
+    let pdf = r2 / (area * cos);
+    pdf.is_finite().then_some(pdf)
+}
+
+/// 1 − cos of the half-angle of the cone around a sphere, without cancellation far away.
+fn cone(radius: f32, distance2: f32) -> f32 {
+    let sin2 = radius * radius / distance2;
+    sin2 / (1.0 + (1.0 - sin2).max(0.0).sqrt())
+}
+
+fn sample_sphere(center: Vec3, radius: f32, from: Vec3, u: [f32; 2]) -> Option<(Vec3, Vec3, f32)> {
+    let axis = center - from;
+    let distance2 = axis.length_squared();
+    if distance2 <= radius * radius * 1.0001 {
+        // Inside, or on it: uniform over the area.
+        let normal = Vec3::from(illuminant_optics::hemisphere::sphere(u));
+        let target = center + normal * radius;
+        let pdf = by_area(from, target, normal, 4.0 * PI * radius * radius)?;
+        return Some((target, normal, pdf));
+    }
+    let one_minus_cos_max = cone(radius, distance2);
+    let one_minus_cos = u[0] * one_minus_cos_max;
+    let cos = 1.0 - one_minus_cos;
+    let sin2 = one_minus_cos * (2.0 - one_minus_cos);
+    let (sin_phi, cos_phi) = (TAU * u[1]).sin_cos();
+    let frame = illuminant_optics::frame::Frame::from_normal(axis / distance2.sqrt());
+    let sin = sin2.max(0.0).sqrt();
+    let direction = frame.to_world(Vec3::new(sin * cos_phi, sin * sin_phi, cos));
+    let along = distance2.sqrt() * cos;
+    let half_chord = (radius * radius - distance2 * sin2).max(0.0).sqrt();
+    let target = from + direction * (along - half_chord);
+    let normal = (target - center).normalize_or(-direction);
+    Some((center + normal * radius, normal, (TAU * one_minus_cos_max).recip()))
+}
+
+fn sphere_pdf(center: Vec3, radius: f32, from: Vec3, target: &SurfacePoint) -> f32 {
+    let distance2 = (center - from).length_squared();
+    if distance2 <= radius * radius * 1.0001 {
+        let area = 4.0 * PI * radius * radius;
+        return by_area(from, target.position, target.geometric_normal, area).unwrap_or(0.0);
+    }
+    (TAU * cone(radius, distance2)).recip()
+}
+
+impl Lamp {
+    /// A direction from a point to the lamp, from two numbers in [0, 1); `None` when it sends no light there.
+    #[inline]
+    #[must_use]
+    pub fn sample(&self, geometry: &Geometry, from: Vec3, time: f32, u: [f32; 2]) -> Option<LampSample> {
+        let point = |position: Vec3, falloff: f32| {
+            let d = position - from;
+            let r2 = d.length_squared();
+            (r2 > 0.0 && falloff > 0.0).then(|| LampSample {
+                direction: d / r2.sqrt(),
+                target: Some(position),
+                pdf: None,
+                scale: falloff / r2,
+                uv: None,
+            })
+        };
+        match &self.form {
+            LampForm::Surface(surface) => surface.sample(geometry, from, time, u),
+            LampForm::Point { position } => point(*position, 1.0),
+            LampForm::Spot { position, axis, cos_full, cos_end } => {
+                let cos = (from - *position).normalize_or_zero().dot(*axis);
+                point(*position, spot_falloff(cos, *cos_full, *cos_end))
+            }
+            LampForm::Parallel { direction } => {
+                Some(LampSample { direction: -*direction, target: None, pdf: None, scale: 1.0, uv: None })
+            }
+            LampForm::Uniform => None, // met by chance alone: no direction is better than another
+            LampForm::Image(image) => {
+                let (uv, pdf) = image.sample(u)?;
+                let direction = image.direction(uv);
+                Some(LampSample { direction, target: None, pdf: Some(pdf), scale: 1.0, uv: Some(uv) })
+            }
+        }
+    }
+
+    /// The density, 1/sr, with which [`Self::sample`] draws the direction of a ray from a point that has met this
+    /// surface lamp.
+    #[inline]
+    #[must_use]
+    pub fn pdf_of_hit(
+        &self,
+        geometry: &Geometry,
+        from: Vec3,
+        time: f32,
+        hit: &Hit,
+        target: &SurfacePoint,
+    ) -> f32 {
+        match &self.form {
+            LampForm::Surface(surface) => surface.pdf(geometry, from, time, hit, target),
+            _ => 0.0,
+        }
+    }
+
+    /// Whether a surface lamp emits from the side of its surface that a ray along `direction` meets.
+    #[inline(always)]
+    #[must_use]
+    pub fn emits(&self, geometric_normal: Vec3, direction: Vec3) -> bool {
+        match &self.form {
+            LampForm::Surface(surface) => surface.emits_towards(geometric_normal, direction),
+            _ => false,
+        }
+    }
+
+    /// How much light the lamp sends into a scene of this radius, in lm: by this it is chosen among its fellows.
+    /// Zero for what is met by chance alone.
+    #[must_use]
+    pub fn flux(&self, luminous: f64, scene_radius: f64) -> f64 {
+        use std::f64::consts::PI;
+        let section = PI * scene_radius * scene_radius;
+        luminous
+            * match &self.form {
+                LampForm::Surface(surface) => PI * surface.area * if surface.two_sided { 2.0 } else { 1.0 },
+                LampForm::Point { .. } => 4.0 * PI,
+                LampForm::Spot { cos_full, cos_end, .. } => {
+                    spot_solid_angle(f64::from(*cos_full), f64::from(*cos_end))
+                }
+                LampForm::Parallel { .. } => section,
+                LampForm::Uniform => 0.0,
+                LampForm::Image(image) => image.integral() * section,
+            }
+    }
+}
+
+/// ∫ falloff dω of a spot, sr.
+#[must_use]
+pub fn spot_solid_angle(cos_full: f64, cos_end: f64) -> f64 {
+    std::f64::consts::TAU * ((1.0 - cos_full) + (cos_full - cos_end) / 2.0)
+}
+
+/// Chooses a lamp for a point: a function of the point and its normal, so that better choices can take its place.
+pub trait LampChooser: Send + Sync {
+    /// A lamp and the probability with which it is chosen, from a number in [0, 1); `None` when no lamp can be asked.
+    fn choose(&self, point: Vec3, normal: Vec3, u: f32) -> Option<(usize, f32)>;
+
+    /// The probability with which a lamp is chosen.
+    fn probability(&self, point: Vec3, normal: Vec3, lamp: usize) -> f32;
+}
+
+/// Chooses in proportion to luminous flux, wherever the point is.
+#[derive(Clone, Debug, Default)]
+pub struct ByFlux {
+    sums: Vec<f32>,
+    probabilities: Vec<f32>,
+}
+
+impl ByFlux {
+    /// A chooser for lamps of these fluxes; a lamp of flux 0 is never chosen.
+    #[must_use]
+    pub fn new(fluxes: &[f64]) -> Self {
+        let total: f64 = fluxes.iter().sum();
+        if !(total > 0.0) {
+            return Self { sums: Vec::new(), probabilities: vec![0.0; fluxes.len()] };
+        }
+        let probabilities: Vec<f32> = fluxes.iter().map(|f| (f / total) as f32).collect();
+        let mut sum = 0.0f64;
+        let sums = fluxes.iter().map(|f| {
+            sum += f / total;
+            sum as f32
+        });
+        Self { sums: sums.collect(), probabilities }
+    }
+}
+
+impl LampChooser for ByFlux {
+    #[inline(always)]
+    fn choose(&self, _point: Vec3, _normal: Vec3, u: f32) -> Option<(usize, f32)> {
+        if self.sums.is_empty() {
+            return None;
+        }
+        let mut lamp = self.sums.partition_point(|&s| s <= u).min(self.sums.len() - 1);
+        while self.probabilities[lamp] == 0.0 && lamp > 0 {
+            lamp -= 1;
+        }
+        Some((lamp, self.probabilities[lamp]))
+    }
+
+    #[inline(always)]
+    fn probability(&self, _point: Vec3, _normal: Vec3, lamp: usize) -> f32 {
+        self.probabilities[lamp]
+    }
+}

@@ -1,0 +1,318 @@
+//! A scene ready for rendering.
+
+use crate::description::{CurveData, Description, LightData, MaterialData, Sides, UpAxis};
+use crate::environment::EnvironmentImage;
+use crate::lamp::{ByFlux, Lamp, LampChooser, LampForm, SurfaceLamp, spot_solid_angle};
+use crate::photometry::{Source, absolute_spectrum};
+use crate::{Camera, Geometry};
+use glam::{DVec3, Mat3, Vec3};
+use illuminant_color::RgbSystem;
+use illuminant_illumination::{Material, Surface};
+use illuminant_spectrum::{Curve, Observer, SpectralRange};
+use std::collections::HashMap;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// A mistake in a description, with the place where it stands.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{place}: {problem}")]
+pub struct SceneError {
+    /// Which entry.
+    pub place: String,
+    /// What is wrong.
+    pub problem: String,
+}
+
+fn error(place: impl Into<String>, problem: impl Into<String>) -> SceneError {
+    SceneError { place: place.into(), problem: problem.into() }
+}
+
+/// An image that a scene refers to: width, height, and linear RGB in rows from the top.
+pub type ImageData = (usize, usize, Vec<f32>);
+
+/// An object as the techniques see it.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Its name.
+    pub name: String,
+    /// Index of its material.
+    pub material: usize,
+    /// Index of the lamp that it is.
+    pub lamp: Option<usize>,
+}
+
+/// A scene: geometry shared with others, and all that may change without building it again.
+pub struct Scene {
+    /// The ray structure.
+    pub geometry: Arc<Geometry>,
+    /// The wavelengths.
+    pub range: SpectralRange,
+    /// What surfaces are made of.
+    pub materials: Vec<Material>,
+    /// What is where.
+    pub objects: Vec<Object>,
+    /// Where light comes from.
+    pub lamps: Vec<Lamp>,
+    /// Which lamp a point asks.
+    pub chooser: Box<dyn LampChooser>,
+    /// The lamps that surround the scene.
+    pub surroundings: Vec<usize>,
+    /// The camera.
+    pub camera: Camera,
+}
+
+impl Scene {
+    /// A scene from geometry, a description and its images.
+    ///
+    /// # Errors
+    /// [`SceneError`] that names the first entry that is wrong.
+    pub fn new(
+        geometry: Arc<Geometry>,
+        description: &Description,
+        images: &HashMap<String, ImageData>,
+    ) -> Result<Self, SceneError> {
+        let range = description.range;
+        if range.min_nm < 1 || range.len() < 2 || range.len() > 20_000 {
+            return Err(error("range", "must span from 2 to 20,000 wavelengths of 1 nm or more"));
+        }
+        let curves = description.curves.iter().enumerate().map(curve).collect::<Result<Vec<_>, _>>()?;
+        let materials = description
+            .materials
+            .iter()
+            .map(|m| material(m, &curves, range))
+            .collect::<Result<Vec<_>, _>>()?;
+        if description.objects.len() != geometry.objects() {
+            let problem = format!("{} described, {} placed", description.objects.len(), geometry.objects());
+            return Err(error("objects", problem));
+        }
+        let mut lamps = Vec::new();
+        let mut objects = Vec::with_capacity(description.objects.len());
+        for (index, data) in description.objects.iter().enumerate() {
+            let place = format!("objects.{}", data.name);
+            if data.material >= materials.len() {
+                return Err(error(place, format!("there is no material {}", data.material)));
+            }
+            let mut lamp = None;
+            if let Some(emission) = &data.emission {
+                let surface = SurfaceLamp::new(&geometry, index, emission.sides == Sides::Both);
+                let area = surface.area * if surface.two_sided { 2.0 } else { 1.0 };
+                let relative = get(&curves, emission.spectrum, &place)?;
+                let spectrum =
+                    absolute_spectrum(relative, emission.quantity, Source::Surface { area }, range)
+                        .map_err(|problem| error(&place, problem))?;
+                lamp = Some(lamps.len());
+                lamps.push(Lamp { name: data.name.clone(), spectrum, form: LampForm::Surface(surface) });
+            }
+            objects.push(Object { name: data.name.clone(), material: data.material, lamp });
+        }
+        for light in &description.lights {
+            lamps.push(self::lamp(light, &curves, images, range)?);
+        }
+        let camera = camera(description)?;
+        let (low, high) = geometry.bounds();
+        let eye = camera.eye().as_vec3();
+        let radius = f64::from((high.max(eye) - low.min(eye)).length() / 2.0).max(1e-6);
+        let observer = Observer::cie_1931_2deg();
+        let fluxes: Vec<f64> =
+            lamps.iter().map(|lamp| lamp.flux(observer.luminance(&lamp.spectrum, range), radius)).collect();
+        let around = |l: &Lamp| matches!(l.form, LampForm::Uniform | LampForm::Image(_));
+        let surroundings = (0..lamps.len()).filter(|&i| around(&lamps[i])).collect();
+        let chooser = Box::new(ByFlux::new(&fluxes));
+        Ok(Self { geometry, range, materials, objects, lamps, chooser, surroundings, camera })
+    }
+
+    /// The reflectances by which the scene's light is coloured: one for each material.
+    #[must_use]
+    pub fn reflectances(&self) -> Vec<Curve> {
+        self.materials.iter().map(|m| m.representative_reflectance(self.range)).collect()
+    }
+
+    /// Whether any ray of a coarse grid over the image meets a surface or surroundings.
+    #[must_use]
+    pub fn sees_anything(&self) -> bool {
+        if !self.surroundings.is_empty() {
+            return true;
+        }
+        let [x0, y0, x1, y1] = self.camera.crop.map(|v| v as f32);
+        const STEPS: u32 = 128;
+        (0..STEPS * STEPS).any(|i| {
+            let at = |n: u32, low: f32, high: f32| low + (n as f32 + 0.5) / STEPS as f32 * (high - low);
+            let ray = self.camera.ray(at(i % STEPS, x0, x1), at(i / STEPS, y0, y1), 0.0);
+            self.geometry.closest_hit(&ray).is_some()
+        })
+    }
+}
+
+fn curve((index, data): (usize, &CurveData)) -> Result<Curve, SceneError> {
+    let place =
+        if data.name.is_empty() { format!("curves[{index}]") } else { format!("spectrum {:?}", data.name) };
+    Curve::new(data.wavelengths.clone(), data.values.clone(), data.outside)
+        .map_err(|e| error(place, e.to_string()))
+}
+
+fn get<'a>(curves: &'a [Curve], index: usize, place: &str) -> Result<&'a Curve, SceneError> {
+    curves.get(index).ok_or_else(|| error(place, format!("there is no curve {index}")))
+}
+
+fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Result<Material, SceneError> {
+    let place = |name: &str| format!("materials.{name}");
+    let rough = |name: &str, roughness: f64| {
+        if (0.0..=1.0).contains(&roughness) {
+            Ok(roughness)
+        } else {
+            Err(error(place(name), format!("roughness must lie in [0, 1], and {roughness} does not")))
+        }
+    };
+    let at_least = |name: &str, what: &str, index: usize, least: f64| {
+        let curve = get(curves, index, &place(name))?;
+        if curve.extent(range).0 < least {
+            return Err(error(
+                place(name),
+                format!("{what} must not fall below {least} over {}–{} nm", range.min_nm, range.max_nm),
+            ));
+        }
+        Ok(curve.clone())
+    };
+    match data {
+        MaterialData::Diffuse { name, reflectance } => {
+            let reflectance = at_least(name, "reflectance", *reflectance, 0.0)?;
+            let highest = reflectance.extent(range).1;
+            if highest > 1.0 {
+                let problem = format!(
+                    "reflectance must not exceed 1, and it reaches {highest:.4}; fractions are meant, not percent"
+                );
+                return Err(error(place(name), problem));
+            }
+            Ok(Material { name: name.clone(), surface: Surface::Diffuse { reflectance } })
+        }
+        MaterialData::Conductor { name, n, k, roughness } => {
+            let surface = Surface::Conductor {
+                n: at_least(name, "n", *n, 1e-4)?,
+                k: at_least(name, "k", *k, 0.0)?,
+                roughness: rough(name, *roughness)?,
+            };
+            Ok(Material { name: name.clone(), surface })
+        }
+        MaterialData::Dielectric { name, n, roughness, absorption, dispersion } => {
+            let absorption = match absorption {
+                Some(index) => Some(at_least(name, "absorption", *index, 0.0)?),
+                None => None,
+            };
+            let surface = Surface::Dielectric {
+                n: at_least(name, "n", *n, 0.1)?,
+                roughness: rough(name, *roughness)?,
+                absorption,
+                dispersion: *dispersion,
+            };
+            Ok(Material { name: name.clone(), surface })
+        }
+    }
+}
+
+fn unit(place: &str, key: &str, v: [f32; 3]) -> Result<Vec3, SceneError> {
+    Vec3::from(v)
+        .try_normalize()
+        .ok_or_else(|| error(place, format!("{key} must be a finite vector that is not zero")))
+}
+
+fn lamp(
+    data: &LightData,
+    curves: &[Curve],
+    images: &HashMap<String, ImageData>,
+    range: SpectralRange,
+) -> Result<Lamp, SceneError> {
+    let finish = |name: &str, relative: usize, quantity, source, form| {
+        let place = format!("lights.{name}");
+        let spectrum = absolute_spectrum(get(curves, relative, &place)?, quantity, source, range)
+            .map_err(|problem| error(&place, problem))?;
+        Ok(Lamp { name: name.into(), spectrum, form })
+    };
+    match data {
+        LightData::Point { name, position, spectrum, quantity } => {
+            let source = Source::Point { solid_angle: 4.0 * std::f64::consts::PI };
+            finish(name, *spectrum, *quantity, source, LampForm::Point { position: Vec3::from(*position) })
+        }
+        LightData::Spot { name, position, direction, half_angle_deg, penumbra_deg, spectrum, quantity } => {
+            let place = format!("lights.{name}");
+            if !(*half_angle_deg > 0.0 && *half_angle_deg <= 180.0) {
+                return Err(error(
+                    place,
+                    format!("half_angle must lie above 0 and up to 180 degrees, not {half_angle_deg}"),
+                ));
+            }
+            if !(0.0..=*half_angle_deg).contains(penumbra_deg) {
+                return Err(error(
+                    place,
+                    format!("penumbra must lie between 0 and the half_angle, not {penumbra_deg}"),
+                ));
+            }
+            let cos_end = half_angle_deg.to_radians().cos();
+            let cos_full = (half_angle_deg - penumbra_deg).to_radians().cos();
+            let form = LampForm::Spot {
+                position: Vec3::from(*position),
+                axis: unit(&place, "direction", *direction)?,
+                cos_full: cos_full as f32,
+                cos_end: cos_end as f32,
+            };
+            let source = Source::Point { solid_angle: spot_solid_angle(cos_full, cos_end) };
+            finish(name, *spectrum, *quantity, source, form)
+        }
+        LightData::Directional { name, direction, spectrum, quantity } => {
+            let direction = unit(&format!("lights.{name}"), "direction", *direction)?;
+            finish(name, *spectrum, *quantity, Source::Parallel, LampForm::Parallel { direction })
+        }
+        LightData::Environment { name, spectrum, quantity, image: None, .. } => {
+            let place = format!("lights.{name}");
+            let spectrum =
+                spectrum.ok_or_else(|| error(&place, "an environment needs a spectrum or an image"))?;
+            finish(name, spectrum, *quantity, Source::Surround, LampForm::Uniform)
+        }
+        LightData::Environment {
+            name,
+            spectrum,
+            quantity,
+            image: Some(key),
+            rgb_system,
+            up,
+            rotation_deg,
+        } => {
+            let place = format!("lights.{name}");
+            let problem = |text: String| error(&place, text);
+            let (width, height, rgb) =
+                images.get(key).ok_or_else(|| problem(format!("there is no image {key:?}")))?;
+            let system = RgbSystem::named(rgb_system)
+                .ok_or_else(|| problem(format!("no RGB system {rgb_system:?}")))?;
+            if matches!(quantity, crate::photometry::Quantity::IlluminanceLx(_)) {
+                return Err(problem(
+                    "illuminance_lx does not fit an image; state luminance_cd_m2 of RGB (1, 1, 1)".into(),
+                ));
+            }
+            let relative = match spectrum {
+                Some(index) => get(curves, *index, &place)?.clone(),
+                None => {
+                    let white = system.white_curve();
+                    // A scale then multiplies values that are already cd/m².
+                    let luminance = Observer::cie_1931_2deg().luminance(&white, range);
+                    white.scaled(1.0 / luminance)
+                }
+            };
+            let white = absolute_spectrum(&relative, *quantity, Source::Surround, range).map_err(problem)?;
+            let turn = Mat3::from_rotation_y(-(rotation_deg.to_radians() as f32));
+            let to_y_up = match up {
+                UpAxis::Y => Mat3::IDENTITY,
+                UpAxis::Z => Mat3::from_rotation_x(-std::f32::consts::FRAC_PI_2),
+            };
+            let image =
+                EnvironmentImage::new((*width, *height), rgb, &system, white.clone(), turn * to_y_up, range)
+                    .map_err(|text| error(&place, text))?;
+            Ok(Lamp { name: name.clone(), spectrum: white, form: LampForm::Image(Box::new(image)) })
+        }
+    }
+}
+
+fn camera(description: &Description) -> Result<Camera, SceneError> {
+    let c = &description.camera;
+    let [eye, target, up] = [c.eye, c.target, c.up].map(DVec3::from);
+    Camera::new(eye, target, up, c.field_of_view_deg, c.size, c.crop, c.shutter)
+        .map_err(|e| error("camera", e.to_string().trim_start_matches("camera: ")))
+}

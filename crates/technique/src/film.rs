@@ -1,0 +1,227 @@
+//! The film: exact sums of samples, in named layers.
+//!
+//! Each value is added as a whole multiple of 2⁻⁶⁴ to a 128-bit integer. Integer sums do not depend on their order, so
+//! any split of the work (threads, tiles, ranges of samples, machines, restarts) gives the same bits, and no block of
+//! samples has to be kept together. Memory depends on pixels and channels, not on samples.
+
+use crate::settings::{Layer, Settings};
+use std::ops::Range;
+
+/// A value as a multiple of 2⁻⁶⁴, towards zero; the caller has made sure that it is finite. Values from 2⁶² on are cut.
+#[inline(always)]
+#[must_use]
+pub fn fixed(value: f32) -> i128 {
+    let bits = value.to_bits();
+    let exponent = (bits >> 23 & 0xff) as i32;
+    let mantissa = i128::from(bits & 0x7f_ffff | if exponent > 0 { 0x80_0000 } else { 0 });
+    let shift = exponent.max(1) - 150 + 64;
+    let magnitude = if shift >= 0 { mantissa << shift.min(102) } else { mantissa >> (-shift).min(127) };
+    if value.is_sign_negative() { -magnitude } else { magnitude }
+}
+
+/// The number that a sum stands for.
+#[must_use]
+fn value(sum: i128) -> f64 {
+    sum as f64 / 18_446_744_073_709_551_616.0
+}
+
+/// Where the channels of a layer lie among those of a pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LayerPlan {
+    /// Which layer.
+    pub layer: Layer,
+    /// Its name in files: `xyz`, `lamp:NAME`, …
+    pub name: String,
+    /// Its channels.
+    pub channels: Range<usize>,
+}
+
+/// The sums of one tile.
+#[derive(Clone, Debug)]
+pub struct TileFilm {
+    /// x₀, y₀, x₁, y₁ in pixels of the whole image.
+    pub area: [u32; 4],
+    /// Samples that each pixel holds, dropped ones not counted.
+    pub samples: Vec<u32>,
+    sums: Vec<i128>,
+    channels: usize,
+}
+
+impl TileFilm {
+    /// Adds the channels of one sample of a pixel (by its number within the tile).
+    #[inline(always)]
+    pub fn add(&mut self, pixel: usize, values: &[f32]) {
+        self.samples[pixel] += 1;
+        let sums = &mut self.sums[pixel * self.channels..][..self.channels];
+        for (sum, &v) in sums.iter_mut().zip(values) {
+            *sum = sum.wrapping_add(fixed(v));
+        }
+    }
+
+    /// Columns of the tile.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.area[2] - self.area[0]
+    }
+}
+
+/// All tiles of a cropped image.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// x₀, y₀, x₁, y₁ in pixels of the whole image.
+    pub crop: [u32; 4],
+    /// The layers.
+    pub plan: Vec<LayerPlan>,
+    /// The tiles, row by row.
+    pub tiles: Vec<TileFilm>,
+    channels: usize,
+}
+
+impl Film {
+    /// An empty film for a crop, with the layers that `settings` ask for; `lamps` are their names and `spectral` the
+    /// number of spectral samples.
+    #[must_use]
+    pub fn new(crop: [u32; 4], settings: &Settings, lamps: &[String], spectral: usize) -> Self {
+        let mut plan = Vec::new();
+        let mut channels = 0;
+        let mut push = |layer: Layer, name: String, count: usize| {
+            plan.push(LayerPlan { layer, name, channels: channels..channels + count });
+            channels += count;
+        };
+        push(Layer::Xyz, "xyz".into(), 3);
+        if settings.replicates > 1 {
+            push(Layer::Halves, "halves".into(), 2);
+        }
+        for layer in &settings.layers {
+            match layer {
+                Layer::Xyz | Layer::Halves => {}
+                Layer::Lamps => lamps.iter().for_each(|name| push(Layer::Lamps, format!("lamp:{name}"), 3)),
+                Layer::Spectra => push(Layer::Spectra, "spectra".into(), spectral),
+                Layer::Depth => push(Layer::Depth, "depth".into(), 2),
+                Layer::Normal => push(Layer::Normal, "normal".into(), 3),
+                Layer::Albedo => push(Layer::Albedo, "albedo".into(), 3),
+                Layer::Emission => push(Layer::Emission, "emission".into(), 1),
+            }
+        }
+        let tile = settings.tile.clamp(1, 4096);
+        let [x0, y0, x1, y1] = crop;
+        let mut tiles = Vec::new();
+        for y in (y0..y1).step_by(tile as usize) {
+            for x in (x0..x1).step_by(tile as usize) {
+                let area = [x, y, (x + tile).min(x1), (y + tile).min(y1)];
+                let pixels = ((area[2] - x) * (area[3] - y)) as usize;
+                tiles.push(TileFilm {
+                    area,
+                    samples: vec![0; pixels],
+                    sums: vec![0; pixels * channels],
+                    channels,
+                });
+            }
+        }
+        Self { crop, plan, tiles, channels }
+    }
+
+    /// Channels of a pixel, over all layers.
+    #[must_use]
+    pub fn channels(&self) -> usize {
+        self.channels
+    }
+
+    /// Width and height of the crop.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        let [x0, y0, x1, y1] = self.crop;
+        [(x1 - x0) as usize, (y1 - y0) as usize]
+    }
+
+    /// Calls `f` with the place of each pixel in the crop (row-major), its samples and its sums.
+    fn for_each(&self, mut f: impl FnMut(usize, u32, &[i128])) {
+        let [width, _] = self.size();
+        for tile in &self.tiles {
+            for (i, &samples) in tile.samples.iter().enumerate() {
+                let (dx, dy) = (i as u32 % tile.width(), i as u32 / tile.width());
+                let (x, y) = (tile.area[0] + dx - self.crop[0], tile.area[1] + dy - self.crop[1]);
+                f(y as usize * width + x as usize, samples, &tile.sums[i * self.channels..][..self.channels]);
+            }
+        }
+    }
+
+    /// Samples of each pixel of the crop, row-major.
+    #[must_use]
+    pub fn samples(&self) -> Vec<u32> {
+        let [w, h] = self.size();
+        let mut counts = vec![0; w * h];
+        self.for_each(|pixel, samples, _| counts[pixel] = samples);
+        counts
+    }
+
+    /// The mean of a layer, by name, row-major with its channels together, and how many they are; a pixel without
+    /// samples is 0. Depth is the mean over the samples that met something, infinity where none did.
+    #[must_use]
+    pub fn layer(&self, name: &str) -> Option<(Vec<f64>, usize)> {
+        let plan = self.plan.iter().find(|plan| plan.name == name)?;
+        let [w, h] = self.size();
+        let depth = plan.layer == Layer::Depth;
+        let count = if depth { 1 } else { plan.channels.len() };
+        let mut image = vec![0.0; w * h * count];
+        self.for_each(|pixel, samples, sums| {
+            let sums = &sums[plan.channels.clone()];
+            if depth {
+                image[pixel] = if sums[1] == 0 { f64::INFINITY } else { value(sums[0]) / value(sums[1]) };
+            } else if samples > 0 {
+                for (slot, &sum) in image[pixel * count..].iter_mut().zip(sums) {
+                    *slot = value(sum) / f64::from(samples);
+                }
+            }
+        });
+        Some((image, count))
+    }
+
+    /// The standard error of Y in each pixel, row-major, from two independently scrambled halves of its samples:
+    /// |A − B|/2 for their means A and B. `None` when the film was not told to keep halves; infinity where one is empty.
+    #[must_use]
+    pub fn standard_error(&self) -> Option<Vec<f64>> {
+        let halves = self.plan.iter().find(|plan| plan.layer == Layer::Halves)?;
+        let [w, h] = self.size();
+        let mut error = vec![f64::INFINITY; w * h];
+        self.for_each(|pixel, samples, sums| {
+            let y = value(sums[1]);
+            let (half_y, half_n) =
+                (value(sums[halves.channels.start]), value(sums[halves.channels.start + 1]));
+            let other = f64::from(samples) - half_n;
+            if half_n > 0.0 && other > 0.0 {
+                error[pixel] = (half_y / half_n - (y - half_y) / other).abs() / 2.0;
+            }
+        });
+        Some(error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn fixed_point_is_the_value(v in -1e12f32..1e12) {
+            let back = value(fixed(v));
+            prop_assert!((back - f64::from(v)).abs() <= 6e-20 + 1e-15 * f64::from(v).abs());
+        }
+
+        #[test]
+        fn sums_do_not_depend_on_order(mut values in prop::collection::vec(0.0f32..1e9, 1..50)) {
+            let sum = |v: &[f32]| v.iter().map(|&x| fixed(x)).sum::<i128>();
+            let forward = sum(&values);
+            values.reverse();
+            prop_assert_eq!(forward, sum(&values));
+        }
+    }
+
+    #[test]
+    fn extremes_are_cut_not_wrapped() {
+        assert!(fixed(f32::MAX) > 0 && value(fixed(f32::MAX)) > 1e18);
+        assert_eq!(fixed(f32::MIN_POSITIVE), 0);
+        assert_eq!(value(fixed(1.0)), 1.0);
+    }
+}

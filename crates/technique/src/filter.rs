@@ -1,0 +1,139 @@
+//! The reconstruction filter, sampled by importance: a sample belongs to one pixel and counts once.
+
+use serde::{Deserialize, Serialize};
+
+/// A filter around the centre of a pixel, the product of one function of x and the same of y.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum Filter {
+    /// Constant within `radius` pixels.
+    Box {
+        /// Half-width, pixels.
+        #[serde(default = "half")]
+        radius: f32,
+    },
+    /// Falling linearly to zero at `radius`.
+    Tent {
+        /// Half-width, pixels.
+        #[serde(default = "one")]
+        radius: f32,
+    },
+    /// A Gaussian of standard deviation `radius` / 3, cut off at `radius`.
+    Gaussian {
+        /// Half-width, pixels.
+        #[serde(default = "one_and_a_half")]
+        radius: f32,
+    },
+}
+
+fn half() -> f32 {
+    0.5
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+fn one_and_a_half() -> f32 {
+    1.5
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Self::Gaussian { radius: one_and_a_half() }
+    }
+}
+
+impl Filter {
+    /// The half-width, pixels.
+    #[must_use]
+    pub fn radius(&self) -> f32 {
+        match self {
+            Self::Box { radius } | Self::Tent { radius } | Self::Gaussian { radius } => *radius,
+        }
+    }
+
+    fn value(&self, x: f64) -> f64 {
+        let r = f64::from(self.radius());
+        match self {
+            Self::Box { .. } => 1.0,
+            Self::Tent { .. } => (1.0 - x.abs() / r).max(0.0),
+            Self::Gaussian { .. } => {
+                let sigma = r / 3.0;
+                (-0.5 * (x / sigma).powi(2)).exp()
+            }
+        }
+    }
+}
+
+/// A filter's inverse distribution, tabulated.
+#[derive(Clone, Debug)]
+pub struct FilterSampler {
+    offsets: Vec<f32>,
+}
+
+impl FilterSampler {
+    const CELLS: usize = 1024;
+
+    /// Tabulates a filter.
+    #[must_use]
+    pub fn new(filter: &Filter) -> Self {
+        let fine = 64 * Self::CELLS;
+        let radius = f64::from(filter.radius());
+        let x = |i: usize| radius * (2.0 * (i as f64) / fine as f64 - 1.0);
+        let mut sums = vec![0.0; fine + 1];
+        for i in 0..fine {
+            sums[i + 1] = sums[i] + filter.value((x(i) + x(i + 1)) / 2.0);
+        }
+        let total = sums[fine];
+        let offsets = (0..=Self::CELLS).map(|k| {
+            let wanted = total * k as f64 / Self::CELLS as f64;
+            let i = sums.partition_point(|&s| s < wanted).clamp(1, fine);
+            let width = sums[i] - sums[i - 1];
+            let t = if width > 0.0 { (wanted - sums[i - 1]) / width } else { 0.0 };
+            (x(i - 1) + t.clamp(0.0, 1.0) * (x(i) - x(i - 1))) as f32
+        });
+        Self { offsets: offsets.collect() }
+    }
+
+    /// An offset from the centre of the pixel, drawn by the filter, from a number in [0, 1).
+    #[inline(always)]
+    #[must_use]
+    pub fn offset(&self, u: f32) -> f32 {
+        let position = u * Self::CELLS as f32;
+        let i = (position as usize).min(Self::CELLS - 1);
+        let t = position - i as f32;
+        self.offsets[i] + t * (self.offsets[i + 1] - self.offsets[i])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variances_are_those_of_the_filters() {
+        let gaussian = {
+            // A normal distribution cut off at three standard deviations.
+            let sigma: f64 = 0.5;
+            sigma * sigma * 0.9733
+        };
+        for (filter, variance) in [
+            (Filter::Box { radius: 0.5 }, 1.0 / 12.0),
+            (Filter::Tent { radius: 1.0 }, 1.0 / 6.0),
+            (Filter::Gaussian { radius: 1.5 }, gaussian),
+        ] {
+            let sampler = FilterSampler::new(&filter);
+            let n = 100_000;
+            let (mut sum, mut squares) = (0.0f64, 0.0f64);
+            for i in 0..n {
+                let x = f64::from(sampler.offset((i as f32 + 0.5) / n as f32));
+                sum += x;
+                squares += x * x;
+            }
+            let found = squares / f64::from(n);
+            assert!((sum / f64::from(n)).abs() < 1e-4);
+            assert!((found / variance - 1.0).abs() < 2e-3, "{filter:?} {found} {variance}");
+        }
+    }
+}

@@ -1,0 +1,333 @@
+//! Path tracing (Kajiya 1986): next-event estimation with multiple importance sampling (Veach 1997, power heuristic),
+//! Russian roulette by brightness, radiance in every lane.
+//!
+//! Where a path goes never depends on the lanes, only on seed, pixel, sample and the brightness of materials; so every
+//! spectral sampling follows the same paths, and `1nm` may follow them pass by pass.
+
+use crate::lanes::Pass;
+use crate::media::Media;
+use crate::sequence::Sequence;
+use glam::Vec3;
+use illuminant_illumination::{IlluminationModel, Incidence, Prepare};
+use illuminant_optics::frame::Frame;
+use illuminant_sampling::Lanes;
+use illuminant_scene::{Hit, Ray, Scene, SurfacePoint};
+
+/// After this many segments a path may be ended by chance.
+const ROULETTE_FROM: u32 = 5;
+
+/// How paths are followed.
+#[derive(Clone, Copy, Debug)]
+pub struct PathTracer {
+    /// The longest path in segments.
+    pub depth: u32,
+}
+
+/// What the camera sees first along a path.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Primary {
+    /// Distance, object and shading normal, if anything is met.
+    pub surface: Option<(f32, u32, Vec3)>,
+    /// Whether the camera looks at light.
+    pub emits: bool,
+}
+
+/// One vertex of a path, for replays.
+#[derive(Clone, Debug)]
+pub struct Vertex {
+    /// Number of the object.
+    pub object: u32,
+    /// Number of its triangle.
+    pub primitive: u32,
+    /// Where.
+    pub position: Vec3,
+    /// Throughput on arrival, in every lane.
+    pub throughput: Vec<f32>,
+    /// What the vertex added to the radiance, in every lane.
+    pub added: Vec<f32>,
+}
+
+/// Counts of one path or many.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counts {
+    /// Closest-hit queries.
+    pub closest: u64,
+    /// Occlusion queries.
+    pub occlusion: u64,
+}
+
+/// The weight of a direction drawn with density `mine` that could have been drawn with `other`.
+#[inline(always)]
+fn power_heuristic(mine: f32, other: f32) -> f32 {
+    let ratio = other / mine;
+    (1.0 + ratio * ratio).recip()
+}
+
+/// The state of a path between two vertices.
+struct State<const N: usize> {
+    ray: Ray,
+    throughput: Lanes<N>,
+    brightness: f32,
+    media: Media,
+    /// The sample that is left after a dispersive refraction.
+    hero: Option<usize>,
+    /// Where the last direction was drawn, with which normal and density; `None` after a discrete lobe or the camera.
+    origin: Option<(Vec3, Vec3, f32)>,
+}
+
+impl PathTracer {
+    /// Follows one path and adds the radiance that it brings to `radiance`, one bundle for each group of lamps.
+    ///
+    /// `u_hero` chooses the sample that a dispersive refraction would keep. With `log`, every vertex is noted.
+    #[allow(clippy::too_many_arguments)]
+    #[inline]
+    pub fn trace<const N: usize, M: IlluminationModel<N> + Prepare>(
+        &self,
+        scene: &Scene,
+        pass: &Pass<N, M>,
+        group_of: &[usize],
+        ray: Ray,
+        mut sequence: Sequence,
+        u_hero: f32,
+        radiance: &mut [Lanes<N>],
+        counts: &mut Counts,
+        mut log: Option<&mut Vec<Vertex>>,
+    ) -> Primary {
+        let geometry = &*scene.geometry;
+        let mut primary = Primary::default();
+        let hero_sample = ((u_hero * pass.total as f32) as usize).min(pass.total - 1);
+        let mut path = State {
+            ray,
+            throughput: Lanes::splat(1.0),
+            brightness: 1.0,
+            media: Media::default(),
+            hero: None,
+            origin: None,
+        };
+        for segment in 1..=self.depth {
+            counts.closest += 1;
+            let Some(hit) = geometry.closest_hit(&path.ray) else {
+                self.add_surroundings(scene, pass, group_of, &path, radiance);
+                primary.emits |= segment == 1 && !scene.surroundings.is_empty();
+                break;
+            };
+            if let Some(kept) = pass.transmittance(path.media.innermost(), hit.distance) {
+                path.throughput *= kept;
+            }
+            let point = geometry.surface(&path.ray, &hit);
+            let object = &scene.objects[hit.object as usize];
+            let before = log.as_ref().map(|_| radiance.iter().fold(Lanes::default(), |sum, r| sum + *r));
+            if let Some(lamp) =
+                object.lamp.filter(|&l| scene.lamps[l].emits(point.geometric_normal, path.ray.direction))
+            {
+                let weight = self.weight_of_hit(scene, &path, lamp, &hit, &point);
+                radiance[group_of[lamp]] += path.throughput * pass.emission[lamp] * weight;
+                primary.emits |= segment == 1;
+            }
+            if segment == 1 {
+                primary.surface = Some((hit.distance, hit.object, point.normal));
+            }
+            let goes_on = segment < self.depth
+                && self.scatter(
+                    scene,
+                    pass,
+                    group_of,
+                    &mut path,
+                    &point,
+                    object.material,
+                    segment,
+                    &mut sequence,
+                    hero_sample,
+                    radiance,
+                    counts,
+                );
+            if let Some(log) = log.as_deref_mut() {
+                let after = radiance.iter().fold(Lanes::default(), |sum: Lanes<N>, r| sum + *r);
+                log.push(Vertex {
+                    object: hit.object,
+                    primitive: hit.primitive,
+                    position: point.position,
+                    throughput: path.throughput.0.to_vec(),
+                    added: (after - before.unwrap_or_default()).0.to_vec(),
+                });
+            }
+            if !goes_on {
+                break;
+            }
+        }
+        primary
+    }
+
+    /// Asks a lamp, then draws the next direction; whether the path goes on.
+    #[allow(clippy::too_many_arguments)]
+    #[inline(always)]
+    fn scatter<const N: usize, M: IlluminationModel<N> + Prepare>(
+        &self,
+        scene: &Scene,
+        pass: &Pass<N, M>,
+        group_of: &[usize],
+        path: &mut State<N>,
+        point: &SurfacePoint,
+        material: usize,
+        segment: u32,
+        sequence: &mut Sequence,
+        hero_sample: usize,
+        radiance: &mut [Lanes<N>],
+        counts: &mut Counts,
+    ) -> bool {
+        let model = &pass.materials[material];
+        let to_viewer = -path.ray.direction;
+        // A shading normal that faces away where the surface faces the viewer is no normal to shade with.
+        let facing = point.normal.dot(to_viewer) * point.geometric_normal.dot(to_viewer) > 0.0;
+        let normal = if facing { point.normal } else { point.geometric_normal };
+        let frame = Frame::from_normal(normal);
+        let local = frame.to_local(to_viewer);
+        let outside = local.z > 0.0;
+        let around = path.media;
+        let beyond = if outside { around.entered(material) } else { around.left(material) };
+        let (near, far) =
+            if outside { (around.innermost(), Some(material)) } else { (Some(material), beyond.innermost()) };
+        let at = Incidence {
+            to_viewer: local,
+            near: pass.index(near),
+            far: pass.index(far),
+            hero_lane: path.hero.and_then(|sample| pass.lane(sample)),
+        };
+        let u = sequence.next4();
+        if model.is_continuous() {
+            let u_lamp = sequence.next4();
+            self.ask_lamp(
+                scene, pass, group_of, path, point, normal, &frame, &at, model, beyond, u_lamp, radiance,
+                counts,
+            );
+        }
+        let hero_lane = pass.lane(path.hero.unwrap_or(hero_sample));
+        let Some(drawn) = model.sample(&at, [u[0], u[1], u[2]], hero_lane) else { return false };
+        let direction = frame.to_world(drawn.direction);
+        let outward = direction.dot(point.geometric_normal);
+        // Light must leave on the side on which the model says it does.
+        if (outward * to_viewer.dot(point.geometric_normal) > 0.0) == drawn.transmitted {
+            return false;
+        }
+        path.throughput *= drawn.weight;
+        path.brightness *= drawn.brightness;
+        if drawn.disperses {
+            let Some(lane) = hero_lane else { return false };
+            path.hero = Some(hero_sample);
+            path.throughput = path.throughput.only(lane, pass.total as f32);
+        }
+        if drawn.transmitted {
+            path.media = beyond;
+        }
+        if segment >= ROULETTE_FROM {
+            let survival = path.brightness.min(0.98);
+            if u[3] >= survival {
+                return false;
+            }
+            path.throughput *= survival.recip();
+            path.brightness /= survival;
+        }
+        path.ray = Ray { origin: point.offset(direction), direction, time: path.ray.time };
+        path.origin = drawn.pdf.map(|pdf| (point.position, normal, pdf));
+        true
+    }
+
+    /// Next-event estimation: one lamp, one direction, one shadow ray.
+    #[allow(clippy::too_many_arguments)]
+    #[inline(always)]
+    fn ask_lamp<const N: usize, M: IlluminationModel<N> + Prepare>(
+        &self,
+        scene: &Scene,
+        pass: &Pass<N, M>,
+        group_of: &[usize],
+        path: &State<N>,
+        point: &SurfacePoint,
+        normal: Vec3,
+        frame: &Frame,
+        at: &Incidence<'_, N>,
+        model: &M,
+        beyond: Media,
+        u: [f32; 4],
+        radiance: &mut [Lanes<N>],
+        counts: &mut Counts,
+    ) {
+        let geometry = &*scene.geometry;
+        let Some((lamp, probability)) = scene.chooser.choose(point.position, normal, u[2]) else { return };
+        let time = path.ray.time;
+        let Some(light) = scene.lamps[lamp].sample(geometry, point.position, time, [u[0], u[1]]) else {
+            return;
+        };
+        let local = frame.to_local(light.direction);
+        let outward = light.direction.dot(point.geometric_normal);
+        if outward * local.z <= 0.0 {
+            return;
+        }
+        let f = model.eval(at, local);
+        if f.is_zero() {
+            return;
+        }
+        let mut weight = light.scale * local.z.abs() / probability;
+        if let Some(pdf) = light.pdf {
+            let pdf = pdf * probability;
+            weight = light.scale * local.z.abs() / pdf * power_heuristic(pdf, model.pdf(at, local));
+        }
+        let origin = point.offset(light.direction);
+        let (span, tfar) = match light.target {
+            Some(target) => (target - origin, 1.0),
+            None => (light.direction, f32::INFINITY),
+        };
+        counts.occlusion += 1;
+        if geometry.is_occluded(origin, span, time, tfar) {
+            return;
+        }
+        let emission = match light.uv {
+            Some(_) => pass.surroundings(scene, lamp, light.direction),
+            None => pass.emission[lamp],
+        };
+        let mut arriving = path.throughput * f * emission * weight;
+        let medium = if local.z * at.to_viewer.z > 0.0 { path.media } else { beyond };
+        if let Some(kept) = pass.transmittance(medium.innermost(), span.length().min(f32::MAX)) {
+            arriving *= kept;
+        }
+        radiance[group_of[lamp]] += arriving;
+    }
+
+    /// How much a lamp counts that a drawn direction has met, beside being asked directly.
+    #[inline(always)]
+    fn weight_of_hit<const N: usize>(
+        &self,
+        scene: &Scene,
+        path: &State<N>,
+        lamp: usize,
+        hit: &Hit,
+        point: &SurfacePoint,
+    ) -> f32 {
+        let Some((from, normal, pdf)) = path.origin else { return 1.0 };
+        let asked = scene.chooser.probability(from, normal, lamp)
+            * scene.lamps[lamp].pdf_of_hit(&scene.geometry, from, path.ray.time, hit, point);
+        power_heuristic(pdf, asked)
+    }
+
+    #[inline]
+    fn add_surroundings<const N: usize, M: IlluminationModel<N> + Prepare>(
+        &self,
+        scene: &Scene,
+        pass: &Pass<N, M>,
+        group_of: &[usize],
+        path: &State<N>,
+        radiance: &mut [Lanes<N>],
+    ) {
+        for &lamp in &scene.surroundings {
+            let weight = match (&scene.lamps[lamp].form, path.origin) {
+                (illuminant_scene::LampForm::Image(image), Some((from, normal, pdf))) => {
+                    let asked = scene.chooser.probability(from, normal, lamp)
+                        * image.pdf(image.uv(path.ray.direction));
+                    power_heuristic(pdf, asked)
+                }
+                _ => 1.0,
+            };
+            let light = pass.surroundings(scene, lamp, path.ray.direction);
+            radiance[group_of[lamp]] += path.throughput * light * weight;
+        }
+    }
+}
