@@ -74,9 +74,8 @@ def show(
         )
         return
     first, last = spectrum.range_nm
-    typer.echo(
-        f"{spectrum.name}: {'no unit' if spectrum.unit in ('', '1') else spectrum.unit}, {first:g} to {last:g} nm, outside: {spectrum.outside}"
-    )
+    unit = "no unit" if spectrum.unit in ("", "1") else spectrum.unit
+    typer.echo(f"{spectrum.name}: {unit}, {first:g} to {last:g} nm, outside: {spectrum.outside}")
     if spectrum.provenance:
         typer.echo(spectrum.provenance)
     for wavelength, value in zip(spectrum.wavelengths_nm, spectrum.values, strict=True):
