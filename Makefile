@@ -97,11 +97,11 @@ endif
 .venv/.core: $(RUST) .venv/.packages
 	@tools/check_toolchain.sh $(BIN)/python
 	@echo "illuminant: compiling the core (about two minutes the first time)"
-	@touch .venv/.core-begun
 	@$(if $(CI),cargo metadata --locked --format-version 1 > /dev/null)
-	@$(UV) pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation \
-	  --reinstall-package illuminant --editable .
-	@mv .venv/.core-begun $@
+	@begun=$$(mktemp .venv/.core-begun.XXXXXX); trap 'rm -f "$$begun"' EXIT; \
+	$(UV) pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation \
+	  --reinstall-package illuminant --editable .; \
+	mv "$$begun" $@
 
 requirements: .venv/.uv ## Pin the Python packages again (UPGRADE=1 takes newer versions)
 	@compile() { $(UV) pip compile --quiet --python-version 3.11 --generate-hashes --no-emit-index-url \
