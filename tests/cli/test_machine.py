@@ -1,13 +1,18 @@
 """What the machine must have: a processor, Embree, memory."""
 
+import os
+import re
+import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from illuminant import core, embree, machine, processor
+from illuminant import embree, machine, processor
 from illuminant.errors import MachineError, UsageError
 from illuminant.settings import Settings
 
+Command = Callable[..., "subprocess.CompletedProcess[str]"]
 HASWELL = set(processor.REQUIRED)
 
 
@@ -54,14 +59,15 @@ def test_no_embree_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None
         embree.find()
 
 
-def test_a_wrong_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    (tmp_path / "libembree4.so").write_bytes(b"no library")
-    monkeypatch.setenv(embree.VARIABLE, str(tmp_path / "libembree4.so"))
-    with pytest.raises(
-        MachineError, match=r"libembree4\.so cannot be used as Embree 4 .*: install it with"
-    ) as caught:
-        core.embree.__wrapped__()
-    assert "\n" not in str(caught.value)
+def test_a_wrong_library_says_what_to_install(scene: Path, command: Command) -> None:
+    library = scene.with_name("libembree4.so")
+    library.write_bytes(b"no library")
+    done = command("render", scene, env={**os.environ, embree.VARIABLE: str(library)})
+    assert done.returncode == 3
+    assert re.fullmatch(
+        rf"Error: {library} cannot be used as Embree 4 \(.+\): install it with `pip install embreex`, .+\n",
+        done.stderr,
+    )
 
 
 def test_an_image_too_large_for_the_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
