@@ -188,9 +188,11 @@ impl PyScene {
         Ok(dict)
     }
 
-    /// Sentences on what the user should know before rendering with a sampling.
-    fn warnings(&self, sampling: &str) -> PyResult<Vec<String>> {
+    /// Sentences on what the user should know before rendering with these settings (JSON).
+    fn warnings(&self, settings: &str) -> PyResult<Vec<String>> {
         let mut warnings = Vec::new();
+        let settings = crate::technique::settings(settings)?;
+        let sampling = settings.sampling;
         let parsed: SpectralSampling = sampling
             .parse()
             .map_err(|e: illuminant_sampling::SamplingError| PyValueError::new_err(e.to_string()))?;

@@ -14,6 +14,13 @@ use std::time::Duration;
 #[pyclass(name = "Render", module = "illuminant._core")]
 pub(crate) struct PyRender(Render);
 
+/// Settings from JSON; a mistake names its key.
+pub(crate) fn settings(json: &str) -> PyResult<Settings> {
+    let mut reader = serde_json::Deserializer::from_str(json);
+    serde_path_to_error::deserialize(&mut reader)
+        .map_err(|e| PyValueError::new_err(format!("{}: {}", e.path(), e.inner())))
+}
+
 fn shaped<T>(result: Result<T, numpy::ndarray::ShapeError>) -> PyResult<T> {
     result.map_err(|e| PyMemoryError::new_err(e.to_string()))
 }
@@ -34,9 +41,7 @@ fn vertex<'py>(py: Python<'py>, render: &Render, vertex: &Vertex) -> PyResult<Bo
 impl PyRender {
     #[new]
     fn new(py: Python<'_>, scene: &PyScene, settings: &str) -> PyResult<Self> {
-        let mut reader = serde_json::Deserializer::from_str(settings);
-        let settings: Settings = serde_path_to_error::deserialize(&mut reader)
-            .map_err(|e| PyValueError::new_err(format!("{}: {}", e.path(), e.inner())))?;
+        let settings = self::settings(settings)?;
         let scene = Arc::clone(&scene.0);
         let render = py.detach(|| Render::new(scene, settings));
         Ok(Self(render.map_err(|e: RenderError| PyValueError::new_err(e.to_string()))?))

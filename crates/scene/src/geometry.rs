@@ -668,8 +668,10 @@ fn mesh_point(mesh: &Mesh, hit: &Hit) -> SurfacePoint {
     let position = a * u + b * v + c * w;
     let (e1, e2) = (b - a, c - a);
     let geometric_normal = e1.cross(e2).normalize();
-    // The position errs with the size of its terms; a query from there errs again with the distance to the corners.
-    let error = (a.abs() + b.abs() + c.abs()) * gamma(8) + (e1.abs() + e2.abs()) * gamma(8);
+    // The position errs with the size of its terms; a query from there errs with the distances to the corners, along
+    // every axis, also along one on which all corners have the coordinate 0.
+    let reach = (a.abs() + b.abs() + c.abs() + e1.abs() + e2.abs()).max_element();
+    let error = Vec3::splat(reach * gamma(8));
     let normal = mesh.normals.as_ref().map_or(geometric_normal, |normals| {
         let [na, nb, nc] = corners.map(|i| normals[i]);
         let n = (na * u + nb * v + nc * w).normalize_or(geometric_normal);
@@ -685,7 +687,7 @@ fn mesh_point(mesh: &Mesh, hit: &Hit) -> SurfacePoint {
 fn sphere_point(center: Vec3, radius: f32, near: Vec3) -> SurfacePoint {
     let normal = (near - center).normalize_or(Vec3::Z);
     let position = center + normal * radius;
-    let error = (center.abs() + Vec3::splat(radius)) * gamma(16);
+    let error = Vec3::splat((center.abs().max_element() + radius) * gamma(16));
     let uv = Vec2::new(
         (normal.y.atan2(normal.x) * std::f32::consts::FRAC_1_PI * 0.5).rem_euclid(1.0),
         normal.z.clamp(-1.0, 1.0).acos() * std::f32::consts::FRAC_1_PI,
@@ -776,6 +778,8 @@ mod tests {
         crate::embree::load_from_environment().unwrap();
         for scale in [1e-3, 1.0, 1e3] {
             for far in [0.0, 1e3] {
+                // Flat on an axis first, then tilted.
+                self_intersections(square(0.0), &|x, y| vec3(x, y, 5.0));
                 let mut shape = square(0.0);
                 if let Shape::Mesh(mesh) = &mut shape {
                     for p in &mut mesh.positions {
@@ -786,28 +790,32 @@ mod tests {
                         );
                     }
                 }
-                let geometry = Geometry::new(vec![shape], vec![placed(0, 0.0)], 1).unwrap();
-                for i in 0..2000u32 {
-                    let (x, y) = ((i % 50) as f32 / 25.0 - 0.99, (i / 50) as f32 / 20.0 - 0.99);
-                    let ray = Ray {
-                        origin: vec3(x * scale + far, y * scale * 0.7 - far, far + 5.0 * scale),
-                        direction: Vec3::NEG_Z,
-                        time: 0.0,
-                    };
-                    let Some(hit) = geometry.closest_hit(&ray) else { continue };
-                    let point = geometry.surface(&ray, &hit);
-                    for direction in
-                        [Vec3::Z, vec3(0.95, 0.0, 0.3).normalize(), vec3(-0.5, 0.8, 0.1).normalize()]
-                    {
-                        let origin = point.offset(direction);
-                        if direction.dot(point.geometric_normal) > 1e-3 {
-                            let again = geometry.closest_hit(&Ray { origin, direction, time: 0.0 });
-                            assert!(again.is_none(), "{scale} {far} {direction} {again:?}");
-                        }
-                    }
+                self_intersections(shape, &|x, y| {
+                    vec3(x * scale + far, y * scale * 0.7 - far, far + 5.0 * scale)
+                });
+            }
+        }
+    }
+
+    fn self_intersections(shape: Shape, above: &dyn Fn(f32, f32) -> Vec3) {
+        let geometry = Geometry::new(vec![shape], vec![placed(0, 0.0)], 1).unwrap();
+        let mut met = 0;
+        for i in 0..2000u32 {
+            let (x, y) = ((i % 50) as f32 / 25.0 - 0.99, (i / 50) as f32 / 20.0 - 0.99);
+            let ray = Ray { origin: above(x, y), direction: Vec3::NEG_Z, time: 0.0 };
+            let Some(hit) = geometry.closest_hit(&ray) else { continue };
+            met += 1;
+            let point = geometry.surface(&ray, &hit);
+            for direction in [Vec3::Z, vec3(0.95, 0.0, 0.3).normalize(), vec3(-0.5, 0.8, 0.1).normalize()] {
+                if direction.dot(point.geometric_normal) > 1e-3 {
+                    let origin = point.offset(direction);
+                    let again = geometry.closest_hit(&Ray { origin, direction, time: 0.0 });
+                    assert!(again.is_none(), "{ray:?} {direction} {again:?}");
+                    assert!(!geometry.is_occluded(origin, direction, 0.0, f32::INFINITY));
                 }
             }
         }
+        assert!(met > 100);
     }
 
     #[test]

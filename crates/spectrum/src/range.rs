@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!(visible.wavelengths().last(), Some(780.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(from = "[u32; 2]", into = "[u32; 2]")]
+#[serde(try_from = "[f64; 2]", into = "[u32; 2]")]
 pub struct SpectralRange {
     /// The shortest wavelength, nm.
     pub min_nm: u32,
@@ -31,6 +31,19 @@ impl Default for SpectralRange {
 impl From<[u32; 2]> for SpectralRange {
     fn from([min_nm, max_nm]: [u32; 2]) -> Self {
         Self { min_nm, max_nm: max_nm.max(min_nm) }
+    }
+}
+
+impl TryFrom<[f64; 2]> for SpectralRange {
+    type Error = String;
+
+    fn try_from([min, max]: [f64; 2]) -> Result<Self, String> {
+        let whole = |v: f64| v.fract() == 0.0 && (1.0..=1e6).contains(&v);
+        if whole(min) && whole(max) && min < max {
+            Ok(Self { min_nm: min as u32, max_nm: max as u32 })
+        } else {
+            Err(format!("a range runs from one whole nm to a larger one, and {min} to {max} does not"))
+        }
     }
 }
 
