@@ -1,5 +1,7 @@
 """The repository keeps its own rules: one version, both licences, no leftovers, pinned packages."""
 
+import json
+import platform
 import re
 import subprocess
 import tomllib
@@ -179,6 +181,23 @@ def test_every_dependency_has_a_line_that_says_what_it_is_for(repository):
     asked = {name for name in asked if not name.startswith("illuminant")}
     assert asked - described == set(), "without a line"
     assert described - asked == set(), "no longer used"
+
+
+def test_every_locked_crate_builds_with_the_oldest_rust_that_is_promised(repository):
+    oldest = tomllib.loads((repository / "Cargo.toml").read_text())["workspace"]["package"]["rust-version"]
+    # Crates of other systems are not fetched, so this asks for those of this one alone.
+    target = f"{platform.machine()}-unknown-linux-gnu"
+    options = ["--locked", "--offline", "--format-version", "1", "--filter-platform", target]
+    listing = subprocess.run(["cargo", "metadata", *options], cwd=repository, capture_output=True, text=True)
+    assert listing.returncode == 0, listing.stderr
+
+    def number(version: str) -> tuple[int, ...]:
+        return tuple(int(part) for part in version.split(".")[:2])
+
+    packages = json.loads(listing.stdout)["packages"]
+    wants = {f"{p['name']} {p['version']}": p["rust_version"] for p in packages if p["rust_version"]}
+    assert {name: rust for name, rust in wants.items() if number(rust) > number(oldest)} == {}
+    assert f'at_least "${{found:-0}}" {oldest} ' in (repository / "tools" / "check_toolchain.sh").read_text()
 
 
 # --- commands ------------------------------------------------------------------------------------------------
