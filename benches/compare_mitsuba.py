@@ -50,6 +50,7 @@ class Contender:
     key: str
     reference: np.ndarray = field(default_factory=lambda: np.zeros(0))
     seconds: list[float] = field(default_factory=list)
+    processor_seconds: list[float] = field(default_factory=list)
     errors: list[float] = field(default_factory=list)
     peak_bytes: int = 0
 
@@ -75,7 +76,7 @@ def main() -> None:
     parser.add_argument(
         "--sampling", default="uniform:8", help="of illuminant; Mitsuba carries 4 wavelengths"
     )
-    parser.add_argument("--depth", type=int, default=8, help="largest number of bounces")
+    parser.add_argument("--depth", type=int, default=8, help="longest path in segments, in both")
     parser.add_argument("--rr-depth", type=int, default=5, help="of Mitsuba (its default is 5)")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--runs", type=int, default=5)
@@ -110,16 +111,15 @@ def _start(name: str, exported: Path, options: argparse.Namespace) -> list[Conte
     """Start all, one after the other, and let each compile and touch its memory once."""
     scene = hashlib.sha256(exported.read_bytes() + exported.with_suffix(".npz").read_bytes()).hexdigest()
     contenders = []
-    if not options.no_illuminant:
-        own = ["--size", str(options.size), "--sampling", options.sampling]
+    for sampling in [] if options.no_illuminant else options.sampling:
+        own = ["--size", str(options.size), "--sampling", sampling]
         own += ["--depth", str(options.depth), "--threads", str(options.threads)]
         process = RendererProcess([sys.executable, str(BENCHES / "illuminant_side.py"), name, *own])
         core = str(process.opening["core_sha256"])
-        contenders.append(Contender(f"illuminant {options.sampling}", process, " ".join([scene, core, *own])))
+        contenders.append(Contender(f"illuminant {sampling}", process, " ".join([scene, core, *own])))
     peer = BENCHES.parent / ".venv-bench" / "bin" / "python"
     for label in options.peers:
-        # Edges of a path, for Mitsuba: one more than bounces.
-        limits = ["--depth", str(options.depth + 1), "--rr-depth", str(options.rr_depth)]
+        limits = ["--depth", str(options.depth), "--rr-depth", str(options.rr_depth)]
         limits += ["--threads", str(options.threads)]
         command = [str(peer), str(BENCHES / "mitsuba_peer.py"), str(exported), *PEERS[label], *limits]
         process = RendererProcess(command)
@@ -154,6 +154,7 @@ def _run(contenders: list[Contender], options: argparse.Namespace, folder: Path)
             output = folder / "image.npy"
             answer = contender.process.render(seed=100 + run, samples=options.samples, output=output)
             contender.seconds.append(float(answer["seconds"]))
+            contender.processor_seconds.append(float(answer["processor_seconds"]))
             contender.errors.append(relative_mse(np.load(output), contender.reference))
             contender.peak_bytes = int(answer["peak_bytes"])
 
@@ -161,25 +162,28 @@ def _run(contenders: list[Contender], options: argparse.Namespace, folder: Path)
 def _report(name: str, contenders: list[Contender], options: argparse.Namespace) -> list[dict[str, object]]:
     count = options.size * options.size * options.samples
     print(
-        f"\n{name}: {options.size} x {options.size}, {options.samples} samples a pixel, {options.depth} bounces, "
-        f"{options.threads} threads, {options.runs} runs, references of {options.reference_samples} samples"
+        f"\n{name}: {options.size} x {options.size}, {options.samples} samples a pixel, "
+        f"paths of {options.depth} segments, {options.threads} threads, {options.runs} runs, references of {options.reference_samples} samples"
     )
-    header = f"{'':30}{'seconds':>9}{'min-max':>13}{'Msamples/s':>12}{'rel. MSE':>10}{'efficiency':>12}{'peak MB':>9}"
-    print(header)
+    print(
+        f"{'':30}{'seconds':>9}{'min-max':>13}{'CPU s':>8}{'Msamples/s':>12}{'rel. MSE':>10}{'efficiency':>12}"
+        f"{'peak MB':>9}"
+    )
     rows: list[dict[str, object]] = []
     for one in contenders:
         rate = count / one.median_seconds / 1e6
         value = efficiency(one.error, one.median_seconds)
         spread = f"{min(one.seconds):.2f}-{max(one.seconds):.2f}"
         print(
-            f"{one.name:30}{one.median_seconds:9.3f}{spread:>13}{rate:12.3f}{one.error:10.5f}{value:12.1f}"
-            f"{one.peak_bytes / 1e6:9.0f}"
+            f"{one.name:30}{one.median_seconds:9.3f}{spread:>13}{statistics.median(one.processor_seconds):8.2f}"
+            f"{rate:12.3f}{one.error:10.5f}{value:12.1f}{one.peak_bytes / 1e6:9.0f}"
         )
         rows.append(
             {
                 "scene": name,
                 "renderer": one.name,
                 "seconds": one.seconds,
+                "processor_seconds": one.processor_seconds,
                 "msamples_per_second": rate,
                 "relative_mse": one.errors,
                 "efficiency": value,
@@ -187,22 +191,22 @@ def _report(name: str, contenders: list[Contender], options: argparse.Namespace)
                 "mean_xyz": one.reference.mean(axis=(0, 1)).tolist(),
             }
         )
-    if options.no_illuminant:
-        return rows
-    own, *peers = contenders
-    for peer, row in zip(peers, rows[1:], strict=True):
-        rate = peer.median_seconds / own.median_seconds
-        value = efficiency(own.error, own.median_seconds) / efficiency(peer.error, peer.median_seconds)
-        mean, other = own.reference.mean(axis=(0, 1)), peer.reference.mean(axis=(0, 1))
-        difference = (mean / other - 1.0) * 100.0
-        block = largest_block_difference(own.reference, peer.reference) * 100.0
-        print(
-            f"to {peer.name}: samples per second x {rate:.2f}, efficiency x {value:.2f}; "
-            f"mean X {difference[0]:+.2f} %, Y {difference[1]:+.2f} %, Z {difference[2]:+.2f} %; "
-            f"largest block {block:.2f} %"
-        )
-        row.update(rate_ratio=rate, efficiency_ratio=value, mean_difference_percent=difference.tolist())
+    split = 0 if options.no_illuminant else len(options.sampling)
+    for own in contenders[:split]:
+        for peer in contenders[split:]:
+            _print_ratios(own, peer)
     return rows
+
+
+def _print_ratios(own: Contender, peer: Contender) -> None:
+    rate = peer.median_seconds / own.median_seconds
+    value = efficiency(own.error, own.median_seconds) / efficiency(peer.error, peer.median_seconds)
+    x, y, z = (own.reference.mean(axis=(0, 1)) / peer.reference.mean(axis=(0, 1)) - 1.0) * 100.0
+    block = largest_block_difference(own.reference, peer.reference) * 100.0
+    print(
+        f"{own.name} to {peer.name}: samples per second x {rate:.2f}, efficiency x {value:.2f}; "
+        f"mean X {x:+.2f} %, Y {y:+.2f} %, Z {z:+.2f} %; largest block {block:.2f} %"
+    )
 
 
 if __name__ == "__main__":

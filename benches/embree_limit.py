@@ -46,7 +46,7 @@ def main() -> None:
         "--recorded-samples", type=int, default=8, help="samples a pixel whose queries are recorded"
     )
     parser.add_argument("--sampling", default="uniform:8")
-    parser.add_argument("--depth", type=int, default=8, help="largest number of bounces")
+    parser.add_argument("--depth", type=int, default=8, help="longest path in segments")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--rays", type=Path, help="recorded queries, instead of the program's own")
@@ -73,7 +73,7 @@ def _measure(name: str, program: Path, options: argparse.Namespace) -> None:
     with tempfile.TemporaryDirectory() as folder:
         exported, scene = Path(folder) / "scene.json", Path(folder) / "scene.bin"
         export(resolve(name, options.size), exported)
-        scene.write_bytes(packed(exported, options.recorded_samples, options.depth + 1))
+        scene.write_bytes(packed(exported, options.recorded_samples, options.depth))
         rays = options.rays
         if rays is None:
             rays = Path(folder) / "rays.bin"
@@ -105,7 +105,9 @@ def _measure(name: str, program: Path, options: argparse.Namespace) -> None:
             side.close()
 
     samples = options.size**2 * options.recorded_samples
-    print(f"\n{name}: {options.size} x {options.size}, {options.depth} bounces, {options.threads} threads")
+    print(
+        f"\n{name}: {options.size} x {options.size}, paths of {options.depth} segments, {options.threads} threads"
+    )
     print(f"{'raw Embree':>14}{'per sample':>12}{'Mray/s':>10}{'robust Mray/s':>15}")
     for kind, count in counts.items():
         fast, robust = (count / statistics.median(limits[kind, flag]) / 1e6 for flag in (0, 1))

@@ -27,7 +27,7 @@ def main() -> None:
     parser.add_argument("scene", help="cornell, million, or a scene file")
     parser.add_argument("--size", type=int, default=256)
     parser.add_argument("--sampling", default="uniform:8")
-    parser.add_argument("--depth", type=int, default=8, help="largest number of bounces")
+    parser.add_argument("--depth", type=int, default=8, help="longest path in segments")
     parser.add_argument("--threads", type=int, default=2)
     options = parser.parse_args()
 

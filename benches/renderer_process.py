@@ -7,7 +7,8 @@ conversation are in this file; it needs the standard library only, because it is
 
 Protocol: one JSON object a line. The child opens with ``{"ready": true, ...}`` (name, version, size of the
 image). A request is ``{"seed": int, "samples": int, "output": path or null}``; the answer holds ``seconds``
-(rendering only: no start, no scene, no compilation), ``peak_bytes`` of the process so far, whatever else the
+(rendering only: no start, no scene, no compilation), ``processor_seconds`` (of all threads, for the whole
+request; on a machine that is not quiet they vary less), ``peak_bytes`` of the process so far, whatever else the
 renderer counts, and, when ``output`` was given, the image is there as ``.npy``, (height, width, 3), float64,
 absolute XYZ (Y in cd/m2).
 """
@@ -19,6 +20,7 @@ import os
 import resource
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -83,8 +85,10 @@ def serve(opening: dict[str, Any], render: Callable[[dict[str, Any]], dict[str, 
     os.dup2(2, 1)
     _write(answers, {"ready": True, **opening})
     for line in sys.stdin:
+        before = time.process_time()
         answer = render(json.loads(line))
-        _write(answers, {"peak_bytes": peak_bytes(), **answer})
+        processor = time.process_time() - before
+        _write(answers, {"peak_bytes": peak_bytes(), "processor_seconds": processor, **answer})
 
 
 def peak_bytes() -> int:
