@@ -196,14 +196,18 @@ class Curves:
         return self._constant(float(table.constant or 0.0))
 
     def _from_blackbody_k(self, table: SpectrumTable, use: str, path: Path) -> Spectrum | None:
+        import numpy as np
+
         grid = self._grid()
-        values = core().planck(grid, float(table.blackbody_k or 0.0))
+        values = core().planck(np.array(grid), float(table.blackbody_k or 0.0))
         name = f"black body {table.blackbody_k:g} K"
         return Spectrum(name, grid, values.tolist(), "zero", "W sr-1 m-2 nm-1", "Planck", "emission")
 
     def _from_daylight_k(self, table: SpectrumTable, use: str, path: Path) -> Spectrum | None:
+        import numpy as np
+
         grid = self._grid()
-        values = core().daylight(grid, float(table.daylight_k or 0.0))
+        values = core().daylight(np.array(grid), float(table.daylight_k or 0.0))
         return Spectrum(
             f"daylight {table.daylight_k:g} K",
             grid,

@@ -5,7 +5,7 @@ light or camera at a time into its entry of the description that the core reads:
 at a mistake; the `Report` holds them. Objects are resolved in `objects`.
 
 A material's entry has curves in place (`Spectrum`); `indexed` numbers them at the end, each different curve once, in
-the order of first use, so that equal scenes have equal descriptions.
+the order of first use with keys in alphabetical order, so that equal scenes have equal descriptions.
 """
 
 from __future__ import annotations
@@ -339,11 +339,12 @@ def indexed(description: dict[str, Any]) -> dict[str, Any]:
         if isinstance(value, Spectrum):
             return number(value)
         if isinstance(value, dict):
-            return {key: walk(one) for key, one in value.items()}
+            walked = {key: walk(value[key]) for key in sorted(value)}
+            return {key: walked[key] for key in value}
         return [walk(one) for one in value] if isinstance(value, list) else value
 
-    walked = walk(description)
-    return {"range": walked.pop("range"), "curves": curves, **walked}
+    parts = {key: walk(description[key]) for key in ("materials", "objects", "lights", "camera")}
+    return {"range": description["range"], "curves": curves, **parts}
 
 
 def in_place(description: Mapping[str, Any]) -> dict[str, Any]:
