@@ -1,8 +1,8 @@
 """Rendering a scene to an image, in passes that can be stopped.
 
-Samples are taken in ranges that grow (the first 4 of every pixel, then up to 16, to 64, and 64 more each
-time), so that an image which is stopped early is even. Ranges change no bit of the result: the film's
-sums are exact.
+Samples are taken in ranges over the whole image (the first 4 of every pixel, then up to 16, to 64, and from there
+64, or a quarter of what is done, at a time), so that an image which is stopped early is even. Ranges change no bit of
+the result: the film's sums are exact.
 
 When to end:
 
@@ -57,7 +57,7 @@ __all__ = [
     "standard_error_fraction",
 ]
 
-FIRST_RANGE, GROWTH, LARGEST_RANGE = 4, 4, 64
+FIRST_RANGE, FAST_UNTIL, STEP = 4, 64, 64
 LEAST_SAMPLES_FOR_ERROR = 64
 PIXELS_WITHIN_ERROR = 0.95
 MOST_SAMPLES = 2**32 - 1
@@ -102,12 +102,15 @@ def next_range(done: int, limit: int | None) -> int:
 
     Example:
         >>> ends = [0]
-        >>> while ends[-1] < 200:
-        ...     ends.append(next_range(ends[-1], 200))
+        >>> while ends[-1] < 1000:
+        ...     ends.append(next_range(ends[-1], 1000))
         >>> ends
-        [0, 4, 16, 64, 128, 192, 200]
+        [0, 4, 16, 64, 128, 192, 256, 320, 384, 448, 512, 640, 768, 960, 1000]
     """
-    end = FIRST_RANGE if done == 0 else min(done * GROWTH, done + LARGEST_RANGE)
+    if done < FAST_UNTIL:
+        end = max(FIRST_RANGE, 4 * done)
+    else:
+        end = done + max(1, done // (4 * STEP)) * STEP
     return end if limit is None else min(end, limit)
 
 
@@ -203,7 +206,7 @@ class Job:
         (`stopped`).
         """
         self._began = clock.monotonic()
-        while not self.interrupted and (end := self._next()) > self.done:
+        while not (self.interrupted or self.stopped) and (end := self._next()) > self.done:
             if not self._run(end, progress):
                 return
             self.done = end
@@ -251,7 +254,9 @@ class Job:
             complete, self.interrupted = False, True
         except MemoryError as error:
             raise MachineError("There is not enough memory for this image.") from error
-        if not complete and not self.stopped:
+        if complete:
+            report(1.0)  # a range may be too short to have been reported at all
+        elif not self.stopped:
             self.interrupted = True
         return complete
 
@@ -532,7 +537,7 @@ def held(image: Image) -> str:
 
 def replay(
     scene: Scene | str | os.PathLike[str], pixel: tuple[int, int], sample: int, **options: Any
-) -> list[dict[str, Any]]:
+) -> dict[str, Any]:
     """Follow one path again, with its vertices.
 
     Args:
@@ -543,7 +548,8 @@ def replay(
             be the same.
 
     Returns:
-        The vertices of the path in order, and its value, as the core gives them.
+        `passes`, for each pass (only `1nm` has more than one) the vertices in order, each with `object`, `material`,
+        `primitive`, `position`, `throughput` and `added`; and what the path brought: `xyz`, and `spectrum`, its lanes.
 
     Raises:
         UsageError: the pixel lies outside the image, or the sample is negative.
@@ -551,7 +557,7 @@ def replay(
     return replay_job(Job(scene, **options), pixel, sample)
 
 
-def replay_job(job: Job, pixel: tuple[int, int], sample: int) -> list[dict[str, Any]]:
+def replay_job(job: Job, pixel: tuple[int, int], sample: int) -> dict[str, Any]:
     """As `replay`, for a job that exists already."""
     x, y = pixel
     size = job.scene.description["camera"]["size"]
@@ -559,4 +565,7 @@ def replay_job(job: Job, pixel: tuple[int, int], sample: int) -> list[dict[str, 
         raise UsageError(f"--pixel {x},{y}: the image has {size[0]}x{size[1]} pixels, counted from 0,0.")
     if not 0 <= sample <= MOST_SAMPLES:
         raise UsageError(f"--sample {sample}: expected a whole number from 0.")
-    return [dict(vertex) for vertex in job.core_render.replay(x, y, sample)]
+    try:
+        return dict(job.core_render.replay(x, y, sample))
+    except ValueError as error:
+        raise UsageError(f"--pixel {x},{y}: {_sentence(error)}") from error

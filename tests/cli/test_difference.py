@@ -48,26 +48,26 @@ def test_absolute_images_share_one_exposure(files: tuple[Path, Path]) -> None:
     assert diff(files[0], bright, exposure=0.005).exposure == 0.005
 
 
-def test_the_limit_decides_the_exit_code(files: tuple[Path, Path], command: Command) -> None:
-    assert command("diff", *files, "--max", "1.5").returncode == 0
-    done = command("diff", *files, "--max", "0.5")
+def test_the_limit_decides_the_exit_code(files: tuple[Path, Path], inside: Command) -> None:
+    assert inside("diff", *files, "--max", "1.5").returncode == 0
+    done = inside("diff", *files, "--max", "0.5")
     assert done.returncode == 1
     assert done.stdout.startswith("ΔE00 mean 0.99")
     assert done.stderr == "Different: mean 0.9992 is above 0.5.\n"
-    done = command("diff", *files, "--max", "0.5", "--measure", "flip", "--json")
+    done = inside("diff", *files, "--max", "0.5", "--measure", "flip", "--json")
     assert done.returncode == 0
     assert set(json.loads(done.stdout)) == {"mean", "p95", "max", "flip", "exposure"}
 
 
 @pytest.mark.parametrize("name", ["map.exr", "map.png"])
-def test_the_map_is_written(files: tuple[Path, Path], command: Command, name: str) -> None:
+def test_the_map_is_written(files: tuple[Path, Path], inside: Command, name: str) -> None:
     path = files[0].with_name(name)
-    done = command("diff", *files, "-o", path)
+    done = inside("diff", *files, "-o", path)
     assert (done.returncode, done.stderr) == (0, f"{path}: map of ΔE00, white is 1\n")
     assert (Image.open(path).width, Image.open(path).height) == (24, 16)
 
 
-def test_wrong_input_is_one_sentence(files: tuple[Path, Path], command: Command, tmp_path: Path) -> None:
+def test_wrong_input_is_one_sentence(files: tuple[Path, Path], inside: Command, tmp_path: Path) -> None:
     Image(np.ones((2, 2, 3))).save(tmp_path / "small.exr")
     for arguments, sentence in (
         ((files[0], tmp_path / "none.exr"), "none.exr cannot be read: there is no such file.\n"),
@@ -75,7 +75,7 @@ def test_wrong_input_is_one_sentence(files: tuple[Path, Path], command: Command,
         ((*files, "--measure", "rms"), "--measure rms: expected mean, p95, max or flip.\n"),
         ((*files, "-o", tmp_path / "no" / "a.png"), f"there is no folder {tmp_path / 'no'}.\n"),
     ):
-        done = command("diff", *arguments)
+        done = inside("diff", *arguments)
         assert done.returncode == 2
         assert done.stderr.startswith("Error: ") and done.stderr.endswith(sentence)
         assert done.stderr.count("\n") == 1

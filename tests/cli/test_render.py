@@ -39,23 +39,23 @@ def test_one_scene_two_files_and_a_closing_line(scene: Path, command: Command) -
     assert png.read_header(scene.parent / "a.png").settings == image.settings
 
 
-def test_without_an_output_the_picture_is_named_by_the_scene(scene: Path, command: Command) -> None:
-    assert command("render", scene.name, "--samples", 1, cwd=scene.parent).returncode == 0
+def test_without_an_output_the_picture_is_named_by_the_scene(scene: Path, inside: Command) -> None:
+    assert inside("render", scene.name, "--samples", 1, cwd=scene.parent).returncode == 0
     assert sorted(path.name for path in scene.parent.iterdir()) == ["ball.png", "ball.toml"]
 
 
-def test_the_exposure_and_the_command_in_the_header_repeat_the_picture(scene: Path, command: Command) -> None:
-    first = command("render", scene.name, "-o", "a.png", "--json", cwd=scene.parent)
+def test_the_exposure_and_the_command_in_the_header_repeat_the_picture(scene: Path, inside: Command) -> None:
+    first = inside("render", scene.name, "-o", "a.png", "--json", cwd=scene.parent)
     facts = json.loads(first.stdout)
-    words = json.loads(command("info", "a.png", "--json", cwd=scene.parent).stdout)["remake"].split()
+    words = json.loads(inside("info", "a.png", "--json", cwd=scene.parent).stdout)["remake"].split()
     words[words.index("a.png")] = "b.png"
-    assert command(*words[1:], "--threads", "1", cwd=scene.parent).returncode == 0
+    assert inside(*words[1:], "--threads", "1", cwd=scene.parent).returncode == 0
     assert (scene.parent / "a.png").read_bytes() == (scene.parent / "b.png").read_bytes()
     assert png.read_header(scene.parent / "b.png").text["Exposure"] == f"{facts['exposure']:g}"
 
 
-def test_json_goes_to_stdout_and_says_everything(scene: Path, command: Command) -> None:
-    done = command("render", scene, "-o", scene.with_suffix(".png"), "--json")
+def test_json_goes_to_stdout_and_says_everything(scene: Path, inside: Command) -> None:
+    done = inside("render", scene, "-o", scene.with_suffix(".png"), "--json")
     facts = json.loads(done.stdout)
     assert facts["files"] == [str(scene.with_suffix(".png"))]
     assert facts["complete"] is True and facts["samples"] == 32 * 24 * 8 and facts["samples_per_pixel"] == 8
@@ -63,8 +63,8 @@ def test_json_goes_to_stdout_and_says_everything(scene: Path, command: Command) 
     assert facts["seconds"] > 0 and facts["mrays_per_second"] > 0 and facts["peak_memory"] > 1e6
 
 
-def test_layers_lamps_and_lanes_are_channels(scene: Path, command: Command) -> None:
-    done = command(
+def test_layers_lamps_and_lanes_are_channels(scene: Path, inside: Command) -> None:
+    done = inside(
         "render", scene, "-o", scene.with_suffix(".exr"), "--layers", "depth,normal,albedo,samples", "--lamps",
         "--keep-spectra", "--sampling", "uniform:8", "--size", "16x12",
     )  # fmt: skip
@@ -80,38 +80,40 @@ def test_layers_lamps_and_lanes_are_channels(scene: Path, command: Command) -> N
     assert hit == pytest.approx(1.0, abs=0.05)
 
 
-def test_layers_in_a_png_are_warned_of(scene: Path, command: Command) -> None:
-    done = command("render", scene, "-o", scene.with_suffix(".png"), "--layers", "depth", "--samples", 1)
+def test_layers_in_a_png_are_warned_of(scene: Path, inside: Command) -> None:
+    done = inside("render", scene, "-o", scene.with_suffix(".png"), "--layers", "depth", "--samples", 1)
     assert "Warning: A PNG holds no layers: add -o FILE.exr to keep them.\n" in done.stderr
 
 
-def test_time_ends_the_work(scene: Path, command: Command) -> None:
-    done = command("render", scene, "-o", scene.with_suffix(".png"), "--time", "1s", "--json")
+def test_time_ends_the_work(scene: Path, inside: Command) -> None:
+    done = inside("render", scene, "-o", scene.with_suffix(".png"), "--time", "1s", "--json")
     facts = json.loads(done.stdout)
     assert done.returncode == 0 and facts["complete"]
     assert 0.4 < facts["seconds"] < 1.5
     assert facts["samples_per_pixel"] == facts["settings"]["samples"] > 8
 
 
-def test_error_ends_the_work_at_that_error(scene: Path, command: Command) -> None:
+def test_error_ends_the_work_at_that_error(scene: Path, inside: Command) -> None:
     path = scene.with_suffix(".exr")
-    done = command("render", scene, "-o", path, "--error", "3%", "--json")
+    done = inside("render", scene, "-o", path, "--error", "5%", "--json")
     samples = json.loads(done.stdout)["settings"]["samples"]
     assert done.returncode == 0 and samples >= 64
     reference = scene.with_name("reference.exr")
-    assert command("render", scene, "-o", reference, "--samples", samples * 64, "--seed", 7).returncode == 0
+    assert inside("render", scene, "-o", reference, "--samples", samples * 64, "--seed", 7).returncode == 0
     truth = Image.open(reference).xyz[..., 1]
     error = np.abs(Image.open(path).xyz[..., 1] - truth) / np.maximum(truth, truth.mean())
-    # 95 % of the pixels have a standard error below 3 %, so at most one in ten is off by more than 2 × 3 %.
-    assert (error < 0.06).mean() > 0.9
+    # 95 % of the pixels have a standard error below 5 %, so at most one in ten is off by more than 2 × 5 %.
+    assert (error < 0.1).mean() > 0.9
 
 
-def test_one_path_is_followed_again(scene: Path, command: Command) -> None:
-    done = command("render", scene, "--pixel", "16,12", "--sample", 3, "--json")
-    assert done.returncode == 0 and len(json.loads(done.stdout)) >= 1
-    assert command("render", scene, "--pixel", "16,12", "--sample", 3).stdout.startswith("  0  ")
+def test_one_path_is_followed_again(scene: Path, inside: Command) -> None:
+    done = inside("render", scene, "--pixel", "16,12", "--sample", 3, "--json")
+    path = json.loads(done.stdout)
+    assert done.returncode == 0 and path["passes"][0][0]["object"] == "ball"
+    shown = inside("render", scene, "--pixel", "16,12", "--sample", 3).stdout
+    assert shown.startswith("  0  ball (grey) at (") and "XYZ  (" in shown
     assert [path.name for path in scene.parent.iterdir()] == ["ball.toml"]
-    done = command("render", scene, "--pixel", "32,0")
+    done = inside("render", scene, "--pixel", "32,0")
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert "--pixel 32,0: the image has 32x24 pixels, counted from 0,0." in done.stderr
 
@@ -135,17 +137,17 @@ def test_one_path_is_followed_again(scene: Path, command: Command) -> None:
     ],
 )
 def test_wrong_input_is_one_sentence_before_the_work(
-    scene: Path, command: Command, arguments: list[str], sentence: str
+    scene: Path, inside: Command, arguments: list[str], sentence: str
 ) -> None:
-    done = command("render", *arguments, cwd=scene.parent)
+    done = inside("render", *arguments, cwd=scene.parent)
     assert done.returncode == 2
     assert sentence in done.stderr and done.stderr.startswith("Error: ") and done.stderr.count("\n") == 1
     assert [path.name for path in scene.parent.iterdir()] == ["ball.toml"]
 
 
-def test_all_mistakes_of_a_scene_are_errors_with_their_lines(scene: Path, command: Command) -> None:
+def test_all_mistakes_of_a_scene_are_errors_with_their_lines(scene: Path, inside: Command) -> None:
     scene.write_text(scene.read_text().replace("eye =", "eyes =").replace('"diffuse"', '"difuse"'))
-    done = command("render", scene.name, cwd=scene.parent)
+    done = inside("render", scene.name, cwd=scene.parent)
     assert done.returncode == 2
     assert all(line.startswith("Error: ball.toml:") for line in done.stderr.splitlines())
     assert done.stderr.count("\n") >= 2
@@ -208,7 +210,7 @@ def test_progress_shows_only_on_a_terminal(scene: Path) -> None:
     assert "0:00 left" in text.splitlines()[-3] or "is shown as 0.8" in text
 
 
-def test_python_renders_the_same_bits(scene: Path, command: Command) -> None:
+def test_python_renders_the_same_bits(scene: Path, inside: Command) -> None:
     import illuminant
 
     partial: list[int] = []
@@ -217,7 +219,7 @@ def test_python_renders_the_same_bits(scene: Path, command: Command) -> None:
     )
     assert partial == [4, 16, 20]
     assert image.statistics["samples_per_pixel"] == 20
-    command("render", scene, "-o", scene.with_suffix(".exr"), "--samples", 20)
+    inside("render", scene, "-o", scene.with_suffix(".exr"), "--samples", 20)
     assert np.array_equal(Image.open(scene.with_suffix(".exr")).xyz, image.xyz.astype(np.float32))
 
 
@@ -226,7 +228,7 @@ def test_a_render_can_be_watched_and_stopped_from_python(scene: Path) -> None:
 
     seen: list[float] = []
     image = render(scene, samples=10**6, progress=lambda now: seen.append(now.samples) or len(seen) < 3)
-    assert len(seen) == 3 and image.statistics["samples_per_pixel"] < 10**6
+    assert len(seen) == 3 and 0 < image.statistics["samples_per_pixel"] < 10**6
     images = list(progressive(scene, samples=64))
     assert [item.settings["samples"] for item in images] == [4, 16, 64]
     assert not np.array_equal(images[0].xyz, images[1].xyz)

@@ -291,7 +291,7 @@ def _say_dropped(image: Image) -> None:
         x, y = item["pixel"]
         where = f"object {item['object']}, material {item['material']}" if item.get("object") else "no object"
         warning(
-            f"Sample {item['sample']} of pixel {x},{y} was dropped ({item['reason']}; {where}): "
+            f"Sample {item['sample']} of pixel {x},{y} was dropped ({where}): "
             f"--pixel {x},{y} --sample {item['sample']} follows it again."
         )
 
@@ -302,12 +302,22 @@ def _print_path(job: Job, pixel: str, sample: int, json: bool) -> None:
     from illuminant.rendering import replay_job
     from illuminant.settings import pixel as parse
 
-    vertices = replay_job(job, parse(pixel), sample)
+    path = replay_job(job, parse(pixel), sample)
     if json:
-        emit_json(vertices)
+        emit_json(path)
         return
-    for index, vertex in enumerate(vertices):
-        typer.echo(f"{index:3}  " + "  ".join(f"{key} {_short(value)}" for key, value in vertex.items()))
+    for number, vertices in enumerate(path["passes"]):
+        if len(path["passes"]) > 1:
+            typer.echo(f"pass {number}")
+        if not vertices:
+            typer.echo("nothing was hit")
+        for index, vertex in enumerate(vertices):
+            typer.echo(
+                f"{index:3}  {vertex['object']} ({vertex['material']}) at {_short(vertex['position'])}"
+            )
+            typer.echo(f"     throughput {_short(vertex['throughput'])}")
+            typer.echo(f"     added      {_short(vertex['added'])}")
+    typer.echo(f"XYZ  {_short(path['xyz'])}")
 
 
 def _short(value: Any) -> str:
