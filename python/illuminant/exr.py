@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["LARGEST_HALF", "REC709", "XYZ", "Contents", "read", "write"]
+__all__ = ["LARGEST_HALF", "REC709", "XYZ", "Contents", "fits_half", "read", "write"]
 
 LARGEST_HALF = 65504.0
 """The largest finite half float."""
@@ -98,6 +98,19 @@ def _channels(contents: Contents) -> tuple[list[str], list[Array]]:
     return names, arrays
 
 
+def fits_half(*arrays: Array) -> bool:
+    """Whether every value of these arrays can be a 16-bit float.
+
+    Example:
+        >>> import numpy as np
+        >>> fits_half(np.array([65504.0])), fits_half(np.array([1.0]), np.array([-7e4]))
+        (True, False)
+    """
+    import numpy as np
+
+    return all(float(np.abs(array).max(initial=0.0)) <= LARGEST_HALF for array in arrays)
+
+
 def write(path: str | Path, contents: Contents) -> None:
     """Write an EXR file (not atomically: see `illuminant.output`).
 
@@ -115,12 +128,10 @@ def write(path: str | Path, contents: Contents) -> None:
     names, arrays = _channels(contents)
     kind = np.float16 if contents.half else np.float32
     height, width = contents.rgb.shape[:2]
-    if contents.half:
-        largest = max((float(np.abs(array).max(initial=0.0)) for array in arrays), default=0.0)
-        if largest > LARGEST_HALF:
-            raise UsageError(
-                f"A value of {largest:.6g} does not fit 16-bit floats, whose largest is 65504: save without --half."
-            )
+    if contents.half and not fits_half(*arrays):
+        raise UsageError(
+            f"A value of this image does not fit 16-bit floats, whose largest is {LARGEST_HALF:g}."
+        )
     pixels = np.empty((height, width, len(names)), kind)
     first = 0
     for array in arrays:

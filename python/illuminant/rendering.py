@@ -1,8 +1,8 @@
 """Rendering a scene to an image, in passes that can be stopped.
 
-Samples are taken in ranges over the whole image (the first 4 of every pixel, then up to 16, to 64, and from there
-64, or a quarter of what is done, at a time), so that an image which is stopped early is even. Ranges change no bit of
-the result: the film's sums are exact.
+Samples are taken in ranges over the whole image (1 of every pixel, then up to 4, 16 and 64, and from there
+64, or a quarter of what is done, at a time), so that an image which is stopped early is even. Ranges change
+no bit of the result: the film's sums are exact.
 
 When to end:
 
@@ -57,7 +57,7 @@ __all__ = [
     "standard_error_fraction",
 ]
 
-FIRST_RANGE, FAST_UNTIL, STEP = 4, 64, 64
+FAST_UNTIL, STEP = 64, 64
 LEAST_SAMPLES_FOR_ERROR = 64
 PIXELS_WITHIN_ERROR = 0.95
 MOST_SAMPLES = 2**32 - 1
@@ -105,10 +105,10 @@ def next_range(done: int, limit: int | None) -> int:
         >>> while ends[-1] < 1000:
         ...     ends.append(next_range(ends[-1], 1000))
         >>> ends
-        [0, 4, 16, 64, 128, 192, 256, 320, 384, 448, 512, 640, 768, 960, 1000]
+        [0, 1, 4, 16, 64, 128, 192, 256, 320, 384, 448, 512, 640, 768, 960, 1000]
     """
     if done < FAST_UNTIL:
-        end = max(FIRST_RANGE, 4 * done)
+        end = max(1, 4 * done)
     else:
         end = done + max(1, done // (4 * STEP)) * STEP
     return end if limit is None else min(end, limit)
@@ -299,14 +299,14 @@ class Job:
         return Image(
             np.asarray(render.layer("xyz")),
             layers=layers,
-            settings=self._header(int(held.min()), int(held.max()), statistics),
+            settings=self._header(int(held.max()), statistics),
             exposure=self.exposure,
             statistics=statistics,
             wavelengths_nm=np.asarray(render.wavelengths()) if spectra else None,
             to_xyz=np.asarray(render.to_xyz()) if spectra else None,
         )
 
-    def _header(self, least: int, most: int, statistics: dict[str, Any]) -> dict[str, Any]:
+    def _header(self, most: int, statistics: dict[str, Any]) -> dict[str, Any]:
         """How the image was made, with nothing in it that changes from run to run of the same image."""
         import illuminant
 
@@ -317,7 +317,8 @@ class Job:
             "scene_hash": self.scene.hash(),
             "size": list(camera["size"]),
             **({"crop": list(camera["crop"])} if camera.get("crop") else {}),
-            "samples": most if least == most else [least, most],
+            # Where the work was cut off within a range, some pixels hold more than all do.
+            "samples": self.done if most <= self.done else [self.done, most],
             **self.settings.to_header(),
             "dropped": int(statistics.get("dropped", 0)),
         }
@@ -415,7 +416,7 @@ def progressive(
         options: as for `render`.
 
     Yields:
-        Images that hold 4, 16, 64, 128, ... samples of each pixel. After Ctrl-C the last one is what is
+        Images that hold 1, 4, 16, 64, 128, ... samples of each pixel. After Ctrl-C the last one is what is
         done.
 
     Example:

@@ -8,6 +8,7 @@ import select
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -153,6 +154,31 @@ def test_all_mistakes_of_a_scene_are_errors_with_their_lines(scene: Path, inside
     assert done.stderr.count("\n") >= 2
 
 
+def test_half_floats_give_way_to_a_bright_lamp(scene: Path, inside: Command) -> None:
+    scene.write_text(scene.read_text().replace("2000.0", "2.0e7"))
+    done = inside("render", scene, "-o", scene.with_suffix(".exr"), "--half")
+    assert done.returncode == 0
+    assert "ball.exr has 32-bit floats, since a value of this image is above 65504." in done.stderr
+
+
+def test_an_output_lost_during_the_work_is_kept_elsewhere(
+    scene: Path, inside: Command, monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    import shutil
+
+    from illuminant.rendering import Job
+
+    folder, spare = scene.parent / "out", tmp_path_factory.mktemp("spare")
+    folder.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(spare))
+    warnings = Job.warnings
+    monkeypatch.setattr(Job, "warnings", lambda job: [shutil.rmtree(folder), warnings(job)][1])
+    done = inside("render", scene, "-o", folder / "a.png")
+    assert done.returncode == 2
+    kept = next(spare.rglob("a.png"))
+    assert done.stderr.endswith(f"there is no folder {folder}; the image is kept as {kept}.\n")
+
+
 def wait_for_work(process: "subprocess.Popen[str]") -> None:
     """Until the process has computed for a while (its threads have used more than a second)."""
     began = time.monotonic()
@@ -183,7 +209,7 @@ def test_ctrl_c_writes_what_is_done(scene: Path, number: signal.Signals) -> None
         r"Interrupted: every pixel holds \d+ samples( or more, \S+ on average)?; the image so far", err
     )
     image = Image.open(path)
-    assert image.xyz.min() >= 0 and image.layers["samples"].min() >= 4
+    assert image.xyz.min() >= 0 and image.layers["samples"].min() >= 1
     assert sorted(item.name for item in scene.parent.iterdir()) == ["ball.exr", "ball.toml"]
 
 
@@ -217,7 +243,7 @@ def test_python_renders_the_same_bits(scene: Path, inside: Command) -> None:
     image = illuminant.render(
         scene, samples=20, on_partial=lambda image: partial.append(image.settings["samples"]), threads=1
     )
-    assert partial == [4, 16, 20]
+    assert partial == [1, 4, 16, 20]
     assert image.statistics["samples_per_pixel"] == 20
     inside("render", scene, "-o", scene.with_suffix(".exr"), "--samples", 20)
     assert np.array_equal(Image.open(scene.with_suffix(".exr")).xyz, image.xyz.astype(np.float32))
@@ -230,7 +256,7 @@ def test_a_render_can_be_watched_and_stopped_from_python(scene: Path) -> None:
     image = render(scene, samples=10**6, progress=lambda now: seen.append(now.samples) or len(seen) < 3)
     assert len(seen) == 3 and 0 < image.statistics["samples_per_pixel"] < 10**6
     images = list(progressive(scene, samples=64))
-    assert [item.settings["samples"] for item in images] == [4, 16, 64]
+    assert [item.settings["samples"] for item in images] == [1, 4, 16, 64]
     assert not np.array_equal(images[0].xyz, images[1].xyz)
 
 

@@ -186,7 +186,7 @@ def render(
     if image.statistics["most_samples"] == 0:
         sentence("Interrupted", "no pixel holds a sample yet, so nothing was written.")
         raise typer.Exit(130)
-    saved = [image.save(path, exposure=exposure, rgb=rgb, half=half, bits=bits) for path in paths]
+    saved = [_save(image, path, exposure=exposure, rgb=rgb, half=half, bits=bits) for path in paths]
     facts = _facts(job, image, saved)
     if json:
         emit_json(facts)
@@ -197,6 +197,28 @@ def render(
     if job.interrupted:
         sentence("Interrupted", f"{held(image)}; the image so far is written.")
         raise typer.Exit(130)
+
+
+def _save(image: Image, path: Path, *, half: bool, **look: Any) -> Saved:
+    """Save an image whose work shall not be lost: without half floats if it must, in another folder if it must."""
+    import tempfile
+
+    from illuminant import exr
+    from illuminant.cli.report import warning
+    from illuminant.errors import ImageError, MachineError
+
+    if half and path.suffix.lower() == ".exr" and not exr.fits_half(image.xyz, *image.layers.values()):
+        warning(f"{path} has 32-bit floats, since a value of this image is above 65504.")
+        half = False
+    try:
+        return image.save(path, half=half, **look)
+    except (ImageError, MachineError) as error:
+        try:
+            kept = Path(tempfile.mkdtemp(prefix="illuminant-"), path.name)
+            image.save(kept, half=half, **look)
+        except (ImageError, MachineError, OSError):
+            raise error from None
+        raise type(error)(f"{str(error).rstrip('.')}; the image is kept as {kept}.") from error
 
 
 def _check_look(exposure: float | None, rgb: str | None, bits: int) -> None:
