@@ -51,11 +51,16 @@ def studio() -> np.ndarray:
     """The image, float32 (HEIGHT, WIDTH, 3)."""
     d = directions()
     y = d[..., 1]
-    wall = 0.05 + 0.05 * step(y, 1.6)
+    wall = 0.22 + 0.10 * step(y, 1.6)
+    wall = (
+        wall
+        + 0.35 * np.exp(-6.0 * (1.0 - d @ unit(-55.0, 30.0)))
+        + 0.10 * np.exp(-8.0 * (1.0 - d @ unit(62.0, 5.0)))
+    )
     room = wall[..., None] * np.array([1.0, 0.98, 0.95])
     below = np.maximum(-y, 1e-3)
     grain = 0.5 + 0.5 * np.sin(9.0 * d[..., 0] / below)
-    floor = 0.05 + 0.04 * grain * np.exp(-0.15 / below)
+    floor = 0.13 + 0.08 * grain * np.exp(-0.15 / below) + 0.08 * np.exp(-4.0 * (1.0 - d @ unit(-55.0, -20.0)))
     boards = (floor * np.clip(3.0 * below, 0.3, 1.0))[..., None] * np.array([1.0, 0.62, 0.36])
     image = room + step(-y - 0.02, 0.012)[..., None] * (boards - room)
 
