@@ -361,6 +361,11 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
         !matches!(self, Self::Conductor { facets: None, .. } | Self::Dielectric { facets: None, .. })
     }
 
+    #[inline(always)]
+    fn transmits(&self) -> bool {
+        matches!(self, Self::Dielectric { .. })
+    }
+
     fn claims(&self) -> Claims {
         let rough = matches!(
             self,

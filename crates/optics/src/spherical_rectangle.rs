@@ -44,10 +44,10 @@ impl<R: Real> SphericalRectangle<R> {
         let n = [edge(low[1]), edge(high[0]), edge(high[1]), edge(low[0])];
         let clamp = |v: R| v.max(-R::one()).min(R::one());
         let (g0, g1, g2, g3) = (
-            clamp(n[0] * n[1]).acos(),
-            clamp(-n[1] * n[2]).acos(),
-            clamp(n[2] * n[3]).acos(),
-            clamp(-n[3] * n[0]).acos(),
+            clamp(n[0] * n[1]).arc_cos(),
+            clamp(-n[1] * n[2]).arc_cos(),
+            clamp(n[2] * n[3]).arc_cos(),
+            clamp(-n[3] * n[0]).arc_cos(),
         );
         let k = R::TAU() - g2 - g3;
         let solid_angle = g0 + g1 - k;

@@ -68,6 +68,9 @@ pub struct SurfaceLamp {
     pub two_sided: bool,
     /// Area, m² (one side).
     pub area: f64,
+    /// Centre and radius of a sphere about the size of the lamp.
+    center: Vec3,
+    radius: f32,
     outline: Outline,
 }
 
@@ -91,8 +94,16 @@ enum Outline {
     },
 }
 
-/// Below this solid angle (sr) a lamp is small enough to be sampled by area, and f32 too coarse for its angles.
-const SMALL: f32 = 5e-3;
+/// Below about this solid angle (sr) a lamp is sampled by area: its cosine and distance hardly vary, and f32 is too
+/// coarse for its angles.
+const SMALL: f32 = 0.1;
+
+/// Whether a lamp around `center` is so small from a point. A lamp that is seen edge-on counts by its whole area, so
+/// that one which is near is not taken for small.
+#[inline(always)]
+fn is_small(from: Vec3, center: Vec3, area: f32) -> bool {
+    area < SMALL * from.distance_squared(center)
+}
 
 /// What a point is told of a lamp.
 #[derive(Clone, Copy, Debug)]
@@ -115,7 +126,14 @@ impl SurfaceLamp {
     pub fn new(geometry: &Geometry, object: usize, two_sided: bool) -> Self {
         if let Some((center, radius)) = geometry.sphere(object) {
             let area = 4.0 * std::f64::consts::PI * f64::from(radius) * f64::from(radius);
-            return Self { object, two_sided, area, outline: Outline::Sphere { center, radius } };
+            return Self {
+                object,
+                two_sided,
+                area,
+                center,
+                radius,
+                outline: Outline::Sphere { center, radius },
+            };
         }
         let count = geometry.primitives(object);
         let corners = |i: usize| geometry.triangle(object, i, 0.0).unwrap_or_default();
@@ -137,7 +155,22 @@ impl SurfaceLamp {
                 });
                 Outline::Triangles { sums: sums.collect(), areas: areas.clone() }
             });
-        Self { object, two_sided, area, outline }
+        let middles = (0..count).map(|i| corners(i).iter().sum::<Vec3>() / 3.0);
+        let weighted: Vec3 = middles.zip(&areas).map(|(p, &a)| p * a).sum();
+        let center = weighted / (area as f32).max(f32::MIN_POSITIVE);
+        let farthest = (0..count).flat_map(corners).map(|p| p.distance(center)).fold(0.0, f32::max);
+        Self { object, two_sided, area, center, radius: farthest, outline }
+    }
+
+    /// About the solid angle under which a point sees the lamp, as if it faced the point; 0 behind a flat one.
+    #[inline]
+    fn expected_solid_angle(&self, from: Vec3) -> f32 {
+        if let Outline::Rectangle { corner, normal, .. } = &self.outline {
+            if !self.two_sided && normal.dot(from - *corner) <= 0.0 {
+                return 0.0;
+            }
+        }
+        self.area as f32 / (from.distance_squared(self.center) + self.radius * self.radius)
     }
 
     fn emits_towards(&self, normal: Vec3, direction_from_point: Vec3) -> bool {
@@ -152,14 +185,7 @@ impl SurfaceLamp {
                 if !self.two_sided && normal.dot(from - *corner) <= 0.0 {
                     return None;
                 }
-                let seen = SphericalRectangle::new(
-                    corner.to_array(),
-                    x.to_array(),
-                    y.to_array(),
-                    *size,
-                    from.to_array(),
-                );
-                match seen.filter(|s| s.solid_angle() > SMALL) {
+                match seen_rectangle(from, *corner, *x, *y, *size) {
                     Some(seen) => (Vec3::from(seen.sample(u)), *normal, seen.solid_angle().recip()),
                     None => {
                         let target = *corner + *x * (u[0] * size[0]) + *y * (u[1] * size[1]);
@@ -178,8 +204,7 @@ impl SurfaceLamp {
                 let u = [((u[0] - low) / probability).clamp(0.0, 1.0 - f32::EPSILON), u[1]];
                 let [a, b, c] = geometry.triangle(self.object, i, time)?;
                 let normal = (b - a).cross(c - a).normalize_or_zero();
-                let seen = SphericalTriangle::new([a, b, c].map(|p| p.to_array()), from.to_array());
-                match seen.filter(|s| s.solid_angle() > SMALL) {
+                match seen_triangle(from, [a, b, c], areas[i]) {
                     Some(seen) => {
                         let direction = Vec3::from(seen.sample(u));
                         let distance = (a - from).dot(normal) / direction.dot(normal);
@@ -212,33 +237,51 @@ impl SurfaceLamp {
     #[inline]
     fn pdf(&self, geometry: &Geometry, from: Vec3, time: f32, hit: &Hit, target: &SurfacePoint) -> f32 {
         match &self.outline {
-            Outline::Rectangle { corner, x, y, size, normal } => {
-                let seen = SphericalRectangle::new(
-                    corner.to_array(),
-                    x.to_array(),
-                    y.to_array(),
-                    *size,
-                    from.to_array(),
-                );
-                seen.filter(|s| s.solid_angle() > SMALL).map_or_else(
+            Outline::Rectangle { corner, x, y, size, normal } => seen_rectangle(from, *corner, *x, *y, *size)
+                .map_or_else(
                     || by_area(from, target.position, *normal, size[0] * size[1]).unwrap_or(0.0),
                     |seen| seen.solid_angle().recip(),
-                )
-            }
+                ),
             Outline::Sphere { center, radius } => sphere_pdf(*center, *radius, from, target),
             Outline::Triangles { sums, areas } => {
                 let i = hit.primitive as usize;
                 let probability = sums[i] - if i == 0 { 0.0 } else { sums[i - 1] };
                 let Some(corners) = geometry.triangle(self.object, i, time) else { return 0.0 };
-                let seen = SphericalTriangle::new(corners.map(|p| p.to_array()), from.to_array());
                 probability
-                    * seen.filter(|s| s.solid_angle() > SMALL).map_or_else(
+                    * seen_triangle(from, corners, areas[i]).map_or_else(
                         || by_area(from, target.position, target.geometric_normal, areas[i]).unwrap_or(0.0),
                         |seen| seen.solid_angle().recip(),
                     )
             }
         }
     }
+}
+
+/// A rectangle on the sphere around a point; `None` where it is better sampled by area.
+#[inline(always)]
+fn seen_rectangle(
+    from: Vec3,
+    corner: Vec3,
+    x: Vec3,
+    y: Vec3,
+    size: [f32; 2],
+) -> Option<SphericalRectangle<f32>> {
+    let center = corner + x * (0.5 * size[0]) + y * (0.5 * size[1]);
+    if is_small(from, center, size[0] * size[1]) {
+        return None;
+    }
+    let seen = SphericalRectangle::new(corner.to_array(), x.to_array(), y.to_array(), size, from.to_array());
+    seen.filter(|s| s.solid_angle() > 0.05 * SMALL)
+}
+
+/// A triangle on the sphere around a point; `None` where it is better sampled by area.
+#[inline(always)]
+fn seen_triangle(from: Vec3, corners: [Vec3; 3], area: f32) -> Option<SphericalTriangle<f32>> {
+    if is_small(from, (corners[0] + corners[1] + corners[2]) / 3.0, area) {
+        return None;
+    }
+    let seen = SphericalTriangle::new(corners.map(|p| p.to_array()), from.to_array());
+    seen.filter(|s| s.solid_angle() > 0.05 * SMALL)
 }
 
 /// Two triangles as a rectangle, if they are one.
@@ -384,6 +427,26 @@ impl Lamp {
         }
     }
 
+    /// The illuminance, lx, that the lamp can be expected to bring to a point that faces it, if nothing is in the way;
+    /// `luminous` is the luminance (intensity, illuminance) of its spectrum. Zero only where it brings none.
+    #[inline]
+    #[must_use]
+    pub fn expected_illuminance(&self, luminous: f32, from: Vec3) -> f32 {
+        luminous
+            * match &self.form {
+                LampForm::Surface(surface) => surface.expected_solid_angle(from),
+                LampForm::Point { position } => from.distance_squared(*position).max(1e-12).recip(),
+                LampForm::Spot { position, axis, cos_full, cos_end } => {
+                    let d = from - *position;
+                    spot_falloff(d.normalize_or_zero().dot(*axis), *cos_full, *cos_end)
+                        / d.length_squared().max(1e-12)
+                }
+                LampForm::Parallel { .. } => 1.0,
+                LampForm::Uniform => 0.0,
+                LampForm::Image(image) => image.integral() as f32,
+            }
+    }
+
     /// How much light the lamp sends into a scene of this radius, in lm: by this it is chosen among its fellows.
     /// Zero for what is met by chance alone.
     #[must_use]
@@ -408,57 +471,4 @@ impl Lamp {
 #[must_use]
 pub fn spot_solid_angle(cos_full: f64, cos_end: f64) -> f64 {
     std::f64::consts::TAU * ((1.0 - cos_full) + (cos_full - cos_end) / 2.0)
-}
-
-/// Chooses a lamp for a point: a function of the point and its normal, so that better choices can take its place.
-pub trait LampChooser: Send + Sync {
-    /// A lamp and the probability with which it is chosen, from a number in [0, 1); `None` when no lamp can be asked.
-    fn choose(&self, point: Vec3, normal: Vec3, u: f32) -> Option<(usize, f32)>;
-
-    /// The probability with which a lamp is chosen.
-    fn probability(&self, point: Vec3, normal: Vec3, lamp: usize) -> f32;
-}
-
-/// Chooses in proportion to luminous flux, wherever the point is.
-#[derive(Clone, Debug, Default)]
-pub struct ByFlux {
-    sums: Vec<f32>,
-    probabilities: Vec<f32>,
-}
-
-impl ByFlux {
-    /// A chooser for lamps of these fluxes; a lamp of flux 0 is never chosen.
-    #[must_use]
-    pub fn new(fluxes: &[f64]) -> Self {
-        let total: f64 = fluxes.iter().sum();
-        if !(total > 0.0) {
-            return Self { sums: Vec::new(), probabilities: vec![0.0; fluxes.len()] };
-        }
-        let probabilities: Vec<f32> = fluxes.iter().map(|f| (f / total) as f32).collect();
-        let mut sum = 0.0f64;
-        let sums = fluxes.iter().map(|f| {
-            sum += f / total;
-            sum as f32
-        });
-        Self { sums: sums.collect(), probabilities }
-    }
-}
-
-impl LampChooser for ByFlux {
-    #[inline(always)]
-    fn choose(&self, _point: Vec3, _normal: Vec3, u: f32) -> Option<(usize, f32)> {
-        if self.sums.is_empty() {
-            return None;
-        }
-        let mut lamp = self.sums.partition_point(|&s| s <= u).min(self.sums.len() - 1);
-        while self.probabilities[lamp] == 0.0 && lamp > 0 {
-            lamp -= 1;
-        }
-        Some((lamp, self.probabilities[lamp]))
-    }
-
-    #[inline(always)]
-    fn probability(&self, _point: Vec3, _normal: Vec3, lamp: usize) -> f32 {
-        self.probabilities[lamp]
-    }
 }

@@ -2,7 +2,8 @@
 
 use crate::description::{CurveData, Description, LightData, MaterialData, Sides, UpAxis};
 use crate::environment::EnvironmentImage;
-use crate::lamp::{ByFlux, Lamp, LampChooser, LampForm, SurfaceLamp, spot_solid_angle};
+use crate::lamp::{Lamp, LampForm, SurfaceLamp, spot_solid_angle};
+use crate::lamp_chooser::{LampChooser, chooser};
 use crate::photometry::{Source, absolute_spectrum};
 use crate::{Camera, Geometry};
 use glam::{DVec3, Mat3, Vec3};
@@ -113,11 +114,10 @@ impl Scene {
         let eye = camera.eye().as_vec3();
         let radius = f64::from((high.max(eye) - low.min(eye)).length() / 2.0).max(1e-6);
         let observer = Observer::cie_1931_2deg();
-        let fluxes: Vec<f64> =
-            lamps.iter().map(|lamp| lamp.flux(observer.luminance(&lamp.spectrum, range), radius)).collect();
+        let luminous: Vec<f64> = lamps.iter().map(|lamp| observer.luminance(&lamp.spectrum, range)).collect();
         let around = |l: &Lamp| matches!(l.form, LampForm::Uniform | LampForm::Image(_));
         let surroundings = (0..lamps.len()).filter(|&i| around(&lamps[i])).collect();
-        let chooser = Box::new(ByFlux::new(&fluxes));
+        let chooser = chooser(&lamps, &luminous, radius);
         Ok(Self { geometry, range, materials, objects, lamps, chooser, surroundings, camera })
     }
 

@@ -11,7 +11,7 @@ mod settings;
 
 pub use film::{Film, LayerPlan, TileFilm, fixed};
 pub use filter::{Filter, FilterSampler};
-pub use path::{Counts, PathTracer, Vertex};
+pub use path::{Counts, PathTracer, Probe, Query, Recorder, Vertex};
 pub use render::{Dropped, Progress, Render, RenderError, Replay, Statistics};
 pub use sequence::Sequence;
 pub use settings::{Layer, Settings, Technique};

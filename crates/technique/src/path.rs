@@ -47,7 +47,22 @@ pub struct Vertex {
     pub added: Vec<f32>,
 }
 
-/// Counts of one path or many.
+/// Whoever watches a path: a counter, or a recorder. What is not watched costs nothing.
+pub trait Probe {
+    /// Whether vertices are wanted.
+    const VERTICES: bool = false;
+
+    /// The nearest surface along a ray is about to be asked for.
+    fn closest(&mut self, ray: &Ray);
+
+    /// Whether `origin` + `span` · (0, `tfar`) is free is about to be asked.
+    fn occlusion(&mut self, origin: Vec3, span: Vec3, tfar: f32);
+
+    /// A vertex has been dealt with.
+    fn vertex(&mut self, _vertex: Vertex) {}
+}
+
+/// Counts the queries of one path or many.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counts {
     /// Closest-hit queries.
@@ -56,11 +71,62 @@ pub struct Counts {
     pub occlusion: u64,
 }
 
+impl Probe for Counts {
+    #[inline(always)]
+    fn closest(&mut self, _ray: &Ray) {
+        self.closest += 1;
+    }
+
+    #[inline(always)]
+    fn occlusion(&mut self, _origin: Vec3, _span: Vec3, _tfar: f32) {
+        self.occlusion += 1;
+    }
+}
+
+/// A query as it was asked.
+#[derive(Clone, Copy, Debug)]
+pub enum Query {
+    /// The nearest surface along a ray.
+    Closest(Ray),
+    /// Whether a span is free: origin, span, and how much of it counts.
+    Occlusion(Vec3, Vec3, f32),
+}
+
+/// Keeps everything that happens.
+#[derive(Clone, Debug, Default)]
+pub struct Recorder {
+    /// The queries, in order.
+    pub queries: Vec<Query>,
+    /// The vertices, in order.
+    pub vertices: Vec<Vertex>,
+}
+
+impl Probe for Recorder {
+    const VERTICES: bool = true;
+
+    fn closest(&mut self, ray: &Ray) {
+        self.queries.push(Query::Closest(*ray));
+    }
+
+    fn occlusion(&mut self, origin: Vec3, span: Vec3, tfar: f32) {
+        self.queries.push(Query::Occlusion(origin, span, tfar));
+    }
+
+    fn vertex(&mut self, vertex: Vertex) {
+        self.vertices.push(vertex);
+    }
+}
+
 /// The weight of a direction drawn with density `mine` that could have been drawn with `other`.
 #[inline(always)]
 fn power_heuristic(mine: f32, other: f32) -> f32 {
     let ratio = other / mine;
     (1.0 + ratio * ratio).recip()
+}
+
+/// The light of all groups of lamps together.
+fn sum<const N: usize>(radiance: &[Lanes<N>]) -> Lanes<N> {
+    radiance.iter().fold(Lanes::default(), |sum, light| sum + *light)
 }
 
 /// The state of a path between two vertices.
@@ -78,10 +144,10 @@ struct State<const N: usize> {
 impl PathTracer {
     /// Follows one path and adds the radiance that it brings to `radiance`, one bundle for each group of lamps.
     ///
-    /// `u_hero` chooses the sample that a dispersive refraction would keep. With `log`, every vertex is noted.
+    /// `u_hero` chooses the sample that a dispersive refraction would keep.
     #[allow(clippy::too_many_arguments)]
     #[inline]
-    pub fn trace<const N: usize, M: IlluminationModel<N> + Prepare>(
+    pub fn trace<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
         &self,
         scene: &Scene,
         pass: &Pass<N, M>,
@@ -90,8 +156,7 @@ impl PathTracer {
         mut sequence: Sequence,
         u_hero: f32,
         radiance: &mut [Lanes<N>],
-        counts: &mut Counts,
-        mut log: Option<&mut Vec<Vertex>>,
+        probe: &mut P,
     ) -> Primary {
         let geometry = &*scene.geometry;
         let mut primary = Primary::default();
@@ -105,7 +170,7 @@ impl PathTracer {
             origin: None,
         };
         for segment in 1..=self.depth {
-            counts.closest += 1;
+            probe.closest(&path.ray);
             let Some(hit) = geometry.closest_hit(&path.ray) else {
                 self.add_surroundings(scene, pass, group_of, &path, radiance);
                 primary.emits |= segment == 1 && !scene.surroundings.is_empty();
@@ -116,7 +181,8 @@ impl PathTracer {
             }
             let point = geometry.surface(&path.ray, &hit);
             let object = &scene.objects[hit.object as usize];
-            let before = log.as_ref().map(|_| radiance.iter().fold(Lanes::default(), |sum, r| sum + *r));
+            let before = if P::VERTICES { sum(radiance) } else { Lanes::default() };
+            let arriving = path.throughput;
             if let Some(lamp) =
                 object.lamp.filter(|&l| scene.lamps[l].emits(point.geometric_normal, path.ray.direction))
             {
@@ -139,16 +205,15 @@ impl PathTracer {
                     &mut sequence,
                     hero_sample,
                     radiance,
-                    counts,
+                    probe,
                 );
-            if let Some(log) = log.as_deref_mut() {
-                let after = radiance.iter().fold(Lanes::default(), |sum: Lanes<N>, r| sum + *r);
-                log.push(Vertex {
+            if P::VERTICES {
+                probe.vertex(Vertex {
                     object: hit.object,
                     primitive: hit.primitive,
                     position: point.position,
-                    throughput: path.throughput.0.to_vec(),
-                    added: (after - before.unwrap_or_default()).0.to_vec(),
+                    throughput: arriving.0.to_vec(),
+                    added: (sum(radiance) - before).0.to_vec(),
                 });
             }
             if !goes_on {
@@ -161,7 +226,7 @@ impl PathTracer {
     /// Asks a lamp, then draws the next direction; whether the path goes on.
     #[allow(clippy::too_many_arguments)]
     #[inline(always)]
-    fn scatter<const N: usize, M: IlluminationModel<N> + Prepare>(
+    fn scatter<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
         &self,
         scene: &Scene,
         pass: &Pass<N, M>,
@@ -173,7 +238,7 @@ impl PathTracer {
         sequence: &mut Sequence,
         hero_sample: usize,
         radiance: &mut [Lanes<N>],
-        counts: &mut Counts,
+        probe: &mut P,
     ) -> bool {
         let model = &pass.materials[material];
         let to_viewer = -path.ray.direction;
@@ -198,7 +263,7 @@ impl PathTracer {
             let u_lamp = sequence.next4();
             self.ask_lamp(
                 scene, pass, group_of, path, point, normal, &frame, &at, model, beyond, u_lamp, radiance,
-                counts,
+                probe,
             );
         }
         let hero_lane = pass.lane(path.hero.unwrap_or(hero_sample));
@@ -235,7 +300,7 @@ impl PathTracer {
     /// Next-event estimation: one lamp, one direction, one shadow ray.
     #[allow(clippy::too_many_arguments)]
     #[inline(always)]
-    fn ask_lamp<const N: usize, M: IlluminationModel<N> + Prepare>(
+    fn ask_lamp<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
         &self,
         scene: &Scene,
         pass: &Pass<N, M>,
@@ -249,10 +314,13 @@ impl PathTracer {
         beyond: Media,
         u: [f32; 4],
         radiance: &mut [Lanes<N>],
-        counts: &mut Counts,
+        probe: &mut P,
     ) {
         let geometry = &*scene.geometry;
-        let Some((lamp, probability)) = scene.chooser.choose(point.position, normal, u[2]) else { return };
+        let Some((lamp, probability)) = scene.chooser.choose(&scene.lamps, point.position, normal, u[2])
+        else {
+            return;
+        };
         let time = path.ray.time;
         let Some(light) = scene.lamps[lamp].sample(geometry, point.position, time, [u[0], u[1]]) else {
             return;
@@ -276,7 +344,7 @@ impl PathTracer {
             Some(target) => (target - origin, 1.0),
             None => (light.direction, f32::INFINITY),
         };
-        counts.occlusion += 1;
+        probe.occlusion(origin, span, tfar);
         if geometry.is_occluded(origin, span, time, tfar) {
             return;
         }
@@ -303,7 +371,7 @@ impl PathTracer {
         point: &SurfacePoint,
     ) -> f32 {
         let Some((from, normal, pdf)) = path.origin else { return 1.0 };
-        let asked = scene.chooser.probability(from, normal, lamp)
+        let asked = scene.chooser.probability(&scene.lamps, from, normal, lamp)
             * scene.lamps[lamp].pdf_of_hit(&scene.geometry, from, path.ray.time, hit, point);
         power_heuristic(pdf, asked)
     }
@@ -320,7 +388,7 @@ impl PathTracer {
         for &lamp in &scene.surroundings {
             let weight = match (&scene.lamps[lamp].form, path.origin) {
                 (illuminant_scene::LampForm::Image(image), Some((from, normal, pdf))) => {
-                    let asked = scene.chooser.probability(from, normal, lamp)
+                    let asked = scene.chooser.probability(&scene.lamps, from, normal, lamp)
                         * image.pdf(image.uv(path.ray.direction));
                     power_heuristic(pdf, asked)
                 }

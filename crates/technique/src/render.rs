@@ -3,7 +3,7 @@
 use crate::film::{Film, TileFilm};
 use crate::filter::FilterSampler;
 use crate::lanes::Pass;
-use crate::path::{Counts, PathTracer, Primary, Vertex};
+use crate::path::{Counts, PathTracer, Primary, Probe, Query, Recorder, Vertex};
 use crate::sequence::Sequence;
 use crate::settings::{Layer, Settings, Technique};
 use illuminant_illumination::{General, Illumination, IlluminationModel, Prepare};
@@ -122,6 +122,8 @@ pub struct Replay {
     pub xyz: [f32; 3],
     /// Its spectral samples.
     pub spectrum: Vec<f32>,
+    /// The ray queries that it asked.
+    pub queries: Vec<Query>,
 }
 
 /// The passes of a sampling in bundles of N lanes, through the model M.
@@ -140,15 +142,14 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
 
     /// Follows one sample through all passes; `each` gets what every pass brought.
     #[inline(always)]
-    fn sample(
+    fn sample<P: Probe>(
         &self,
         job: &Job,
         pixel: [u32; 2],
         sample: u64,
         radiance: &mut [Lanes<N>],
-        counts: &mut Counts,
-        mut log: Option<&mut Vec<Vec<Vertex>>>,
-        mut each: impl FnMut(&Pass<N, M>, &[Lanes<N>]),
+        probe: &mut P,
+        mut each: impl FnMut(&Pass<N, M>, &[Lanes<N>], &mut P),
     ) -> Primary {
         let [x, y] = pixel;
         let replicates = u64::from(job.settings.replicates.max(1));
@@ -160,22 +161,9 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
         let mut primary = Primary::default();
         for pass in &self.passes {
             radiance.fill(Lanes::default());
-            let mut vertices = log.as_ref().map(|_| Vec::new());
-            primary = self.tracer.trace(
-                &job.scene,
-                pass,
-                &job.group_of,
-                ray,
-                sequence,
-                u[3],
-                radiance,
-                counts,
-                vertices.as_mut(),
-            );
-            each(pass, radiance);
-            if let (Some(log), Some(vertices)) = (log.as_deref_mut(), vertices) {
-                log.push(vertices);
-            }
+            primary =
+                self.tracer.trace(&job.scene, pass, &job.group_of, ray, sequence, u[3], radiance, probe);
+            each(pass, radiance, probe);
         }
         primary
     }
@@ -210,20 +198,13 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
                 if !plain {
                     values.fill(0.0);
                 }
-                let primary = self.sample(
-                    job,
-                    pixel,
-                    sample,
-                    &mut radiance,
-                    &mut result.counts,
-                    None,
-                    |pass, light| {
+                let primary =
+                    self.sample(job, pixel, sample, &mut radiance, &mut result.counts, |pass, light, _| {
                         sound &= add_xyz(pass, light, &mut xyz);
                         if !plain {
                             spectral_layers(job, pass, light, &mut values);
                         }
-                    },
-                );
+                    });
                 if !(sound && xyz.iter().all(|v| v.is_finite())) {
                     result.dropped.push((pixel, sample));
                     continue;
@@ -241,23 +222,15 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
     fn replay(&self, job: &Job, pixel: [u32; 2], sample: u64) -> Replay {
         let groups = self.passes.first().map_or(0, |pass| pass.to_xyz.len());
         let mut radiance = vec![Lanes::<N>::default(); groups];
-        let mut replay = Replay::default();
-        let (mut passes, mut xyz, mut spectrum) = (Vec::new(), [0.0; 3], Vec::new());
-        self.sample(
-            job,
-            pixel,
-            sample,
-            &mut radiance,
-            &mut Counts::default(),
-            Some(&mut passes),
-            |pass, light| {
-                add_xyz(pass, light, &mut xyz);
-                let sum = light.iter().fold(Lanes::default(), |sum: Lanes<N>, r| sum + *r);
-                spectrum.extend_from_slice(&sum.0[..pass.samples.len()]);
-            },
-        );
-        (replay.passes, replay.xyz, replay.spectrum) = (passes, xyz, spectrum);
-        replay
+        let (mut passes, mut xyz, mut spectrum, mut queries) = (Vec::new(), [0.0; 3], Vec::new(), Vec::new());
+        self.sample(job, pixel, sample, &mut radiance, &mut Recorder::default(), |pass, light, recorder| {
+            add_xyz(pass, light, &mut xyz);
+            let sum = light.iter().fold(Lanes::default(), |sum: Lanes<N>, r| sum + *r);
+            spectrum.extend_from_slice(&sum.0[..pass.samples.len()]);
+            passes.push(std::mem::take(&mut recorder.vertices));
+            queries.append(&mut recorder.queries);
+        });
+        Replay { passes, xyz, spectrum, queries }
     }
 }
 
