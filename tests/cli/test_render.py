@@ -1,5 +1,6 @@
 """`illuminant render`: from a scene file to an image, and every way in which that can end."""
 
+import contextlib
 import json
 import os
 import pty
@@ -211,6 +212,25 @@ def test_ctrl_c_writes_what_is_done(scene: Path, number: signal.Signals) -> None
     image = Image.open(path)
     assert image.xyz.min() >= 0 and image.layers["samples"].min() >= 1
     assert sorted(item.name for item in scene.parent.iterdir()) == ["ball.exr", "ball.toml"]
+
+
+def test_ctrl_c_before_the_work_writes_nothing(
+    scene: Path, inside: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from illuminant import rendering
+
+    class Swallowing(rendering.Job):
+        """A library that is imported while the scene is read may catch whatever is raised."""
+
+        def __init__(self, *arguments: object, **options: object) -> None:
+            with contextlib.suppress(BaseException):
+                signal.raise_signal(signal.SIGINT)
+            super().__init__(*arguments, **options)
+
+    monkeypatch.setattr(rendering, "Job", Swallowing)
+    done = inside("render", scene, "-o", scene.with_suffix(".png"))
+    assert (done.returncode, done.stderr) == (130, "Interrupted: nothing was written.\n")
+    assert [item.name for item in scene.parent.iterdir()] == ["ball.toml"]
 
 
 def test_progress_shows_only_on_a_terminal(scene: Path) -> None:

@@ -81,21 +81,20 @@ def run(arguments: Sequence[str], prog_name: str = "illuminant") -> int:
         illuminant 0.1.0
         0
     """
-    from illuminant.errors import Error
+    from illuminant.errors import Error, Interrupted
 
     debug = "--debug" in arguments
     arguments = [argument for argument in arguments if argument != "--debug"]
     try:
         code = app(list(arguments), prog_name=prog_name, standalone_mode=False)
+        if code == 130:  # Typer's word for Ctrl-C that no verb has dealt with
+            sentence("Interrupted", "nothing was written.")
         return code if isinstance(code, int) else 0
     except Error as error:
         if debug:
             raise
-        sentence("Error", str(error))
+        sentence("Interrupted" if isinstance(error, Interrupted) else "Error", str(error))
         return error.exit_code
-    except KeyboardInterrupt:
-        sentence("Interrupted", "nothing was written.")
-        return 130
     except MemoryError:
         if debug:
             raise

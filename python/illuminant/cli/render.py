@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -148,45 +146,56 @@ def render(
       illuminant render room.toml -o room.png
       illuminant render room.toml -o room.exr -o room.png --time 30s
     """
-    from illuminant.cli.report import closing, emit_json, note, sentence, warning
     from illuminant.image import check_output
-    from illuminant.rendering import Job, held
 
     paths = output or [Path(scene.stem + ".png")]
     if pixel is None:
         for path in paths:
             check_output(path)
     _check_look(exposure, rgb, bits)
-    job = Job(
-        scene,
-        technique=technique,
-        illumination=illumination,
-        sampling=sampling,
-        samples=samples,
-        size=size,
-        depth=depth,
-        seed=seed,
-        threads=threads,
-        filter=filter,
-        layers=layers,
-        keep_spectra=keep_spectra or None,
-        lamps=lamps or None,
-        time=time,
-        error=error,
-    )
-    if pixel is not None:
-        _print_path(job, pixel, sample, json)
-        return
+    options: dict[str, Any] = {
+        "technique": technique,
+        "illumination": illumination,
+        "sampling": sampling,
+        "samples": samples,
+        "size": size,
+        "depth": depth,
+        "seed": seed,
+        "threads": threads,
+        "filter": filter,
+        "layers": layers,
+        "keep_spectra": keep_spectra or None,
+        "lamps": lamps or None,
+        "time": time,
+        "error": error,
+    }
+    with _Stop() as stop:
+        from illuminant.rendering import Job
+
+        job = stop.watch(Job(scene, **options))
+        if pixel is not None:
+            _print_path(job, pixel, sample, json)
+        else:
+            look = {"exposure": exposure, "rgb": rgb, "half": half, "bits": bits}
+            _render(job, paths, look, json)
+
+
+def _render(job: Job, paths: list[Path], look: dict[str, Any], json: bool) -> None:
+    """Do the work, write the files, and say how it went."""
+    from illuminant.cli.report import closing, emit_json, note, warning
+    from illuminant.errors import Interrupted
+    from illuminant.rendering import held
+
     for text in job.warnings():
         warning(text)
-    if (layers or lamps or keep_spectra) and not any(path.suffix.lower() == ".exr" for path in paths):
+    settings = job.settings
+    layers = settings.layers or settings.lamps or settings.keep_spectra
+    if layers and not any(path.suffix.lower() == ".exr" for path in paths):
         warning("A PNG holds no layers: add -o FILE.exr to keep them.")
-
-    image = _work(job, scene.name)
+    image = _work(job)
     if image.statistics["most_samples"] == 0:
-        sentence("Interrupted", "no pixel holds a sample yet, so nothing was written.")
-        raise typer.Exit(130)
-    saved = [_save(image, path, exposure=exposure, rgb=rgb, half=half, bits=bits) for path in paths]
+        raise Interrupted("no pixel holds a sample yet, so nothing was written.")
+    saved = [_save(image, path, **look) for path in paths]
     facts = _facts(job, image, saved)
     if json:
         emit_json(facts)
@@ -195,8 +204,7 @@ def render(
         _say_exposure(saved, image)
     _say_dropped(image)
     if job.interrupted:
-        sentence("Interrupted", f"{held(image)}; the image so far is written.")
-        raise typer.Exit(130)
+        raise Interrupted(f"{held(image)}; the image so far is written.")
 
 
 def _save(image: Image, path: Path, *, half: bool, **look: Any) -> Saved:
@@ -235,31 +243,50 @@ def _check_look(exposure: float | None, rgb: str | None, bits: int) -> None:
         rgb_system.named(rgb)
 
 
-def _work(job: Job, name: str) -> Image:
-    """Render until the settings, or the first Ctrl-C or SIGTERM, end it."""
+class _Stop:
+    """Ctrl-C and SIGTERM: before the work they end the program, during it they end the work; a second one the program.
+
+    The request is remembered, since a library that is being imported may swallow the exception.
+    """
+
+    def __init__(self) -> None:
+        self.requested = False
+        self.job: Job | None = None
+        self.before: dict[int, Any] = {}
+
+    def _handle(self, number: int, frame: Any) -> None:
+        if self.requested or self.job is None:
+            self.requested = True
+            raise KeyboardInterrupt
+        self.requested = True
+        self.job.interrupt()
+
+    def watch(self, job: Job) -> Job:
+        """From now on a request ends the work of this job."""
+        if self.requested:
+            raise KeyboardInterrupt
+        self.job = job
+        return job
+
+    def __enter__(self) -> _Stop:
+        self.before = {
+            number: signal.signal(number, self._handle) for number in (signal.SIGINT, signal.SIGTERM)
+        }
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        for number, handler in self.before.items():
+            signal.signal(number, handler)
+
+
+def _work(job: Job) -> Image:
+    """Render until the settings, or a request to stop, end it."""
     from illuminant.cli.report import progress_bar
 
-    with progress_bar(name) as bar, _stopping(job):
+    with progress_bar(Path(job.source).name) as bar:
         for _ in job.passes(bar):
             pass
         return job.image()
-
-
-@contextmanager
-def _stopping(job: Job) -> Iterator[None]:
-    """The first Ctrl-C (or SIGTERM) ends the work at the next tile; a second one ends the program at once."""
-
-    def stop(number: int, frame: Any) -> None:
-        if job.interrupted:
-            raise KeyboardInterrupt
-        job.interrupt()
-
-    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 def _facts(job: Job, image: Image, saved: list[Saved]) -> dict[str, Any]:

@@ -112,7 +112,7 @@ def progress_bar(name: str) -> Iterator[Callable[[Progress], object] | None]:
 
         def update(progress: Progress) -> None:
             parts = [
-                f"{progress.samples:.0f} samples",
+                f"{progress.samples:.0f} per pixel",
                 f"{progress.msamples_per_second:.2f} Msamples/s",
             ]
             if progress.seconds_left is not None:
