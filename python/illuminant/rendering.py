@@ -561,12 +561,12 @@ def replay(
 def replay_job(job: Job, pixel: tuple[int, int], sample: int) -> dict[str, Any]:
     """As `replay`, for a job that exists already."""
     x, y = pixel
-    size = job.scene.description["camera"]["size"]
-    if not (0 <= x < size[0] and 0 <= y < size[1]):
-        raise UsageError(f"--pixel {x},{y}: the image has {size[0]}x{size[1]} pixels, counted from 0,0.")
+    camera = job.scene.description["camera"]
+    left, top, right, bottom = camera.get("crop") or [0, 0, *camera["size"]]
+    if not (left <= x < right and top <= y < bottom):
+        raise UsageError(
+            f"--pixel {x},{y}: the pixels of this image run from {left},{top} to {right - 1},{bottom - 1}."
+        )
     if not 0 <= sample <= MOST_SAMPLES:
         raise UsageError(f"--sample {sample}: expected a whole number from 0.")
-    try:
-        return dict(job.core_render.replay(x, y, sample))
-    except ValueError as error:
-        raise UsageError(f"--pixel {x},{y}: {_sentence(error)}") from error
+    return dict(job.core_render.replay(x, y, sample))

@@ -117,7 +117,7 @@ def test_one_path_is_followed_again(scene: Path, inside: Command) -> None:
     assert [path.name for path in scene.parent.iterdir()] == ["ball.toml"]
     done = inside("render", scene, "--pixel", "32,0")
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert "--pixel 32,0: the image has 32x24 pixels, counted from 0,0." in done.stderr
+    assert "--pixel 32,0: the pixels of this image run from 0,0 to 31,23." in done.stderr
 
 
 @pytest.mark.parametrize(
@@ -212,6 +212,18 @@ def test_ctrl_c_writes_what_is_done(scene: Path, number: signal.Signals) -> None
     image = Image.open(path)
     assert image.xyz.min() >= 0 and image.layers["samples"].min() >= 1
     assert sorted(item.name for item in scene.parent.iterdir()) == ["ball.exr", "ball.toml"]
+
+
+def test_a_crop_is_a_part_of_the_image(scene: Path, inside: Command) -> None:
+    inside("render", scene, "-o", scene.with_name("whole.exr"))
+    scene.write_text(scene.read_text().replace("[render]", "crop = [10, 5, 20, 15]\n\n[render]"))
+    assert inside("render", scene, "-o", scene.with_name("part.exr")).returncode == 0
+    whole, part = Image.open(scene.with_name("whole.exr")), Image.open(scene.with_name("part.exr"))
+    assert np.array_equal(part.xyz, whole.xyz[5:15, 10:20])
+    assert (part.settings["size"], part.settings["crop"]) == ([32, 24], [10, 5, 20, 15])
+    done = inside("render", scene, "--size", "16x12")
+    assert done.stderr == "Error: --size 16x12: the scene's crop ends at 20,15, outside this image.\n"
+    assert "from 10,5 to 19,14." in inside("render", scene, "--pixel", "1,1").stderr
 
 
 def test_ctrl_c_before_the_work_writes_nothing(

@@ -79,7 +79,7 @@ def _print_image(facts: dict[str, Any]) -> None:
         _line("wavelengths", f"{len(lanes)}, {lanes[0]:g} to {lanes[-1]:g} nm")
     for key, value in facts["settings"].items():
         if isinstance(value, list):
-            value = " to ".join(map(str, value)) if key == "samples" else "x".join(map(str, value))
+            value = {"samples": " to ", "size": "x"}.get(key, ",").join(map(str, value))
         _line(key.replace("_", " "), "no limit" if key == "depth" and value is None else value)
     if facts.get("remake"):
         typer.echo(f"\nMake it again with:\n  {facts['remake']}")

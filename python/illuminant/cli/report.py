@@ -78,7 +78,8 @@ def closing(facts: dict[str, Any]) -> str:
     ]
     error = facts.get("spectral_error")
     if error:
-        parts.append(f"spectral ΔE00 {error['mean']:.2g} (max {error['max']:.2g})")
+        mean, largest = (value if value >= 0.001 else 0.0 for value in (error["mean"], error["max"]))
+        parts.append(f"spectral ΔE00 {mean:.2g} (max {largest:.2g})")
     parts.append(f"{facts['dropped']} dropped")
     return f"{', '.join(str(file) for file in facts['files'])}: {', '.join(parts)}"
 
