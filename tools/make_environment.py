@@ -61,7 +61,7 @@ def studio() -> np.ndarray:
     below = np.maximum(-y, 1e-3)
     grain = 0.5 + 0.5 * np.sin(9.0 * d[..., 0] / below)
     floor = 0.13 + 0.08 * grain * np.exp(-0.15 / below) + 0.08 * np.exp(-4.0 * (1.0 - d @ unit(-55.0, -20.0)))
-    boards = (floor * np.clip(3.0 * below, 0.3, 1.0))[..., None] * np.array([1.0, 0.62, 0.36])
+    boards = (floor * np.clip(3.0 * below, 0.7, 1.0))[..., None] * np.array([1.0, 0.62, 0.36])
     image = room + step(-y - 0.02, 0.012)[..., None] * (boards - room)
 
     def add(cover: np.ndarray, light: np.ndarray) -> None:

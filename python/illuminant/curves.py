@@ -119,7 +119,11 @@ class Curves:
         if isinstance(value, str):
             return self._named(value, use, path, chain)
         if isinstance(value, (int, float)):
-            return self._constant(float(value))
+            try:
+                return self._constant(float(value))
+            except DataError as error:
+                self.report.add_data_error(path, error, "spectrum")
+                return None
         if isinstance(value, SpectrumTable):
             return self._table(value, use, path)
         table, bad = read_table(SpectrumTable, value, path, self.report)

@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Tag
 
-from illuminant.table import Corners, Edges, Matrix, Positive, Table, Vector, key
+from illuminant.table import Corners, Edges, Length, Matrix, Number, Table, Vector, key
 
 __all__ = ["Box", "Disc", "MeshTable", "MeshValue", "Object", "Rectangle", "Rotation", "Sphere"]
 
@@ -22,7 +22,7 @@ class Sphere(Table):
     """A true sphere, not a mesh. It can be scaled only by the same factor in all directions."""
 
     center: Vector = key("centre, in length units", "[0.0, 0.5, 0.0]", [0.0, 0.0, 0.0])
-    radius: Positive = key("radius, in length units", "0.5")
+    radius: Length = key("radius, in length units", "0.5")
 
 
 class Rectangle(Table):
@@ -51,7 +51,7 @@ class Disc(Table):
 
     center: Vector = key("centre, in length units", "[0.0, 2.0, 0.0]", [0.0, 0.0, 0.0])
     normal: Vector = key("the direction that its front faces", "[0.0, -1.0, 0.0]")
-    radius: Positive = key("radius, in length units", "0.3")
+    radius: Length = key("radius, in length units", "0.3")
 
 
 class MeshTable(Table):
@@ -123,7 +123,7 @@ class Rotation(Table):
     """A turn about an axis through the origin, anticlockwise when the axis points at the viewer."""
 
     axis: AxisValue = key("the axis", '"y"')
-    degrees: float = key("the angle, in degrees", "30.0")
+    degrees: Number = key("the angle, in degrees", "30.0")
 
 
 def _rotate_form(value: Any) -> str | None:
@@ -149,7 +149,7 @@ def _scale_form(value: Any) -> str | None:
 
 
 ScaleValue = Annotated[
-    Annotated[float, Tag("<one>")] | Annotated[Vector, Tag("<several>")],
+    Annotated[Number, Tag("<one>")] | Annotated[Vector, Tag("<several>")],
     Discriminator(
         _scale_form,
         custom_error_type="scale_form",

@@ -26,6 +26,9 @@ __all__ = ["SHAPES", "ObjectResolver", "Placed"]
 SHAPES = ("mesh", "sphere", "rectangle", "box", "disc")
 """The keys of which an object has exactly one."""
 
+SMALLEST_RADIUS = 1e-12
+"""The smallest radius of a sphere, in metres."""
+
 
 @dataclass(frozen=True)
 class Placed:
@@ -133,11 +136,11 @@ class ObjectResolver:
                     "use a mesh for an ellipsoid",
                     "transform",
                 )
-            return {
-                "sphere": np.array(
-                    [self.unit_m * value for value in (*table.sphere.center, table.sphere.radius)]
-                )
-            }
+            sphere = np.array([*table.sphere.center, table.sphere.radius]) * self.unit_m
+            if sphere[3] < SMALLEST_RADIUS:
+                message = f"must be at least {SMALLEST_RADIUS:g} m, found {table.sphere.radius:g}"
+                self.report.add((*place, "radius"), message, kind="range")
+            return {"sphere": sphere}
         mirrored = matrix is not None and float(np.linalg.det(matrix[:, :3])) < 0
         try:
             return self._arrays(self._mesh(table, place), table.smooth, mirrored)

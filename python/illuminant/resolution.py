@@ -171,8 +171,9 @@ class Resolver:
             if table.kind != "directional":
                 entry["position"] = self._lengths(table.position)
             if table.kind != "point":
-                entry["direction"] = [float(value) for value in table.direction]
-                if "direction" not in bad and not any(table.direction):
+                length = math.hypot(*table.direction)
+                entry["direction"] = [value / (length or 1.0) for value in table.direction]
+                if "direction" not in bad and length < 1e-30:
                     self.report.add((*path, "direction"), "must have a length", kind="direction")
             if table.kind == "spot":
                 entry["half_angle_deg"] = float(table.half_angle_deg)

@@ -22,7 +22,7 @@ from pydantic import Discriminator, Field, Tag
 
 from illuminant.object_schema import Box, Disc, MeshTable, Object, Rectangle, Rotation, Sphere
 from illuminant.quantities import QUANTITIES
-from illuminant.table import Crop, Fraction, Positive, Range, Rgb, Size, Table, Vector, key
+from illuminant.table import Crop, Fraction, Number, Positive, Range, Rgb, Size, Table, Vector, key
 
 __all__ = [
     "KINDS_OF_LIGHT",
@@ -284,7 +284,7 @@ class Environment(Quantities):
     )
     rgb_system: str | None = key('RGB system of the image; default "sRGB"', '"ACES AP1"', None)
     up: Literal["y", "z"] | None = key("axis of the top of the image; default the scene's `up`", '"z"', None)
-    rotation_deg: float = key(
+    rotation_deg: Number = key(
         "turn of the image about that axis, anticlockwise seen from the zenith, in degrees", "90.0", 0.0
     )
 
@@ -313,7 +313,7 @@ class SceneFile(Table):
     length_unit: Literal["m", "cm", "mm", "in", "ft"] = key("unit of all lengths in the file", '"mm"', "m")
     up: Literal["y", "z"] = key("axis of the world that is up", '"z"', "y")
     range_nm: Range = key(
-        "first and last wavelength that light is carried at", "[360.0, 830.0]", [380.0, 780.0]
+        "first and last wavelength that light is carried at, in nm", "[360.0, 830.0]", [380.0, 780.0]
     )
     camera: Camera = key("where the image is taken from", "")
     render: Render = key("defaults of the options of `illuminant render`", "", Render())

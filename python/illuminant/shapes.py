@@ -25,7 +25,10 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-__all__ = ["DISC_SIDES", "Mesh", "box", "disc", "mesh_from_arrays", "quadrilateral", "rectangle"]
+__all__ = ["DISC_SIDES", "LARGEST", "Mesh", "box", "disc", "mesh_from_arrays", "quadrilateral", "rectangle"]
+
+LARGEST = 1e12
+"""The largest coordinate in metres: beyond it the products of single precision overflow."""
 
 DISC_SIDES = 128
 """Sides of the polygon that stands for a disc."""
@@ -69,11 +72,14 @@ class Mesh:
         for name, values in (("position", self.positions), ("normal", self.normals), ("uv", self.uvs)):
             if values is None:
                 continue
-            with np.errstate(over="ignore"):
-                wrong = np.flatnonzero(~np.isfinite(values.astype(np.float32)).all(axis=1))
-            if len(wrong):
-                count = "1 vertex has" if len(wrong) == 1 else f"{len(wrong)} vertices have"
-                raise DataError(f"{count} a {name} that is not a finite number, first vertex {wrong[0]}")
+            for bad, what in (
+                (~np.isfinite(values), "that is not a finite number"),
+                (np.abs(values) > LARGEST, f"beyond {LARGEST:g}"),
+            ):
+                wrong = np.flatnonzero(bad.any(axis=1))
+                if len(wrong):
+                    count = "1 vertex has" if len(wrong) == 1 else f"{len(wrong)} vertices have"
+                    raise DataError(f"{count} a {name} {what}, first vertex {wrong[0]}")
         a, b, c = (self.positions.astype(np.float32).astype(np.float64)[self.indices[:, i]] for i in range(3))
         edges = np.stack([b - a, c - b, a - c])
         longest = np.einsum("efi,efi->ef", edges, edges).max(axis=0)

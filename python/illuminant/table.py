@@ -21,7 +21,9 @@ __all__ = [
     "Crop",
     "Edges",
     "Fraction",
+    "Length",
     "Matrix",
+    "Number",
     "Positive",
     "Range",
     "Rgb",
@@ -43,14 +45,19 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
 
 
-Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
+LARGEST = 1e9
+"""The largest coordinate, size or factor: beyond it the single precision of ray tracing overflows."""
+
+Number = Annotated[float, Field(ge=-LARGEST, le=LARGEST)]
+Length = Annotated[float, Field(gt=0, le=LARGEST)]
+Vector = Annotated[list[Number], Field(min_length=3, max_length=3)]
 Edges = Annotated[list[Vector], Field(min_length=2, max_length=2)]
 Corners = Annotated[list[Vector], Field(min_length=4, max_length=4)]
-Row = Annotated[list[float], Field(min_length=4, max_length=4)]
+Row = Annotated[list[Number], Field(min_length=4, max_length=4)]
 Matrix = Annotated[list[Row], Field(min_length=3, max_length=4)]
 Size = Annotated[list[Annotated[int, Field(ge=1)]], Field(min_length=2, max_length=2)]
 Crop = Annotated[list[Annotated[int, Field(ge=0)]], Field(min_length=4, max_length=4)]
-Range = Annotated[list[Annotated[float, Field(gt=0)]], Field(min_length=2, max_length=2)]
+Range = Annotated[list[Annotated[float, Field(gt=0, le=10_000)]], Field(min_length=2, max_length=2)]
 Rgb = Annotated[list[float], Field(min_length=3, max_length=3)]
 Positive = Annotated[float, Field(gt=0)]
 Fraction = Annotated[float, Field(ge=0, le=1)]

@@ -1,7 +1,9 @@
 """Every kind of mistake in a scene file: its kind, key and line, the sentence once for each, and all at once."""
 
+import copy
 import re
 import stat
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -342,3 +344,33 @@ def test_an_environment_image_that_is_not_one(tmp_path):
         GOOD + light.replace("luminance_cd_m2", "flux_lm") + 'spectrum = "D65"\n', tmp_path
     )
     assert (problem.kind, problem.key) == ("quantity", "flux_lm")
+
+
+def paths_in(value, path=()):
+    yield path
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, one in items:
+        yield from paths_in(one, (*path, key))
+
+
+GOOD_DATA = tomllib.loads(GOOD) | {"render": {"samples": 4, "filter": {"kind": "box", "radius": 0.5}}}
+ODD = [
+    None, True, -1, 0, 3, 1e308, -1e-320, float("nan"), float("inf"), 2**63, "", "A", "gold.n", "paint", [], [1], [[]],
+    [1, 2, 3], ["a", 1, {}], {}, {"kind": "spot"}, {"rgb": [1, 1, 1], "role": "albedo"}, {"file": "\0"}, "a\0b",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("odd", ODD, ids=repr)
+def test_no_value_anywhere_does_more_than_a_scene_error(odd):
+    for path in list(paths_in(GOOD_DATA))[1:]:
+        data = copy.deepcopy(GOOD_DATA)
+        holder = data
+        for part in path[:-1]:
+            holder = holder[part]
+        holder[path[-1]] = odd
+        try:
+            scene = scene_file.resolve(scene_file.plain(data))
+        except SceneError as error:
+            assert all("\n" not in str(problem) for problem in error.problems)
+        else:
+            assert len(scene.hash()) == 64
