@@ -74,7 +74,10 @@ def main() -> None:
     parser.add_argument("--size", type=int, default=256, help="width and height, pixels")
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument(
-        "--sampling", default="uniform:8", help="of illuminant; Mitsuba carries 4 wavelengths"
+        "--sampling",
+        nargs="+",
+        default=["uniform:8", "uniform:32"],
+        help="of illuminant, one row each; Mitsuba carries 4 wavelengths",
     )
     parser.add_argument("--depth", type=int, default=8, help="longest path in segments, in both")
     parser.add_argument("--rr-depth", type=int, default=5, help="of Mitsuba (its default is 5)")
@@ -163,7 +166,8 @@ def _report(name: str, contenders: list[Contender], options: argparse.Namespace)
     count = options.size * options.size * options.samples
     print(
         f"\n{name}: {options.size} x {options.size}, {options.samples} samples a pixel, "
-        f"paths of {options.depth} segments, {options.threads} threads, {options.runs} runs, references of {options.reference_samples} samples"
+        f"paths of {options.depth} segments, {options.threads} threads, {options.runs} runs, "
+        f"references of {options.reference_samples} samples"
     )
     print(
         f"{'':30}{'seconds':>9}{'min-max':>13}{'CPU s':>8}{'Msamples/s':>12}{'rel. MSE':>10}{'efficiency':>12}"

@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-make --no-print-directory .venv-bench/.packages >&2
+make --silent .venv-bench/.packages >&2
 
 llvm=${DRJIT_LIBLLVM_PATH:-}
 if [ -z "$llvm" ]; then
