@@ -122,14 +122,12 @@ impl SurfacePoint {
         let p = self.position + n * side;
         // Round away from the surface, so that the displacement is not lost.
         let step = n * side;
-        let away = |p: f32, s: f32| {
-            if s > 0.0 {
-                p.next_up()
-            } else if s < 0.0 {
-                p.next_down()
-            } else {
-                p
-            }
+        let away = |p: f32, s: f32| match (s == 0.0, p == 0.0) {
+            (true, _) => p,
+            (_, true) => f32::from_bits(1).copysign(s),
+            // The next number farther from zero, or nearer to it.
+            _ if (s > 0.0) == (p > 0.0) => f32::from_bits(p.to_bits() + 1),
+            _ => f32::from_bits(p.to_bits() - 1),
         };
         Vec3::new(away(p.x, step.x), away(p.y, step.y), away(p.z, step.z))
     }
