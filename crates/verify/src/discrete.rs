@@ -1,7 +1,7 @@
 //! Discrete lobes: mirror direction and smooth refraction, each drawn as often as it should be.
 //!
-//! A lobe of weight w that is drawn with probability p must come with the weight w / p; so the model's own numbers say
-//! p = w / (w / p), and the draws are counted against it.
+//! A lobe of weight w that is drawn with probability p must come with the weight w / p; so the model's own
+//! numbers say p = w / (w / p), and the draws are counted against it.
 
 use crate::chi_square::{pearson, survival};
 use crate::random::Random;
@@ -34,7 +34,8 @@ pub struct Lobes {
     pub p_value: f64,
 }
 
-/// Counts the discrete lobes that a model draws. Lobes whose weight is zero in the first lane carried are not expected.
+/// Counts the discrete lobes that a model draws. Lobes whose weight is zero in the first lane carried are not
+/// expected.
 ///
 /// ```
 /// use illuminant_illumination::General;

@@ -1,9 +1,10 @@
 //! The share of light that a surface gives on: its directional albedo, by quadrature and by drawing.
 //!
-//! ρ(v) = ∫ f(v, l) |cos θ_l| dω_l + Σ discrete lobes, over the side of the viewer (reflected) and over the other side
-//! (transmitted; there times (n_l / n_v)², which undoes the squeezing of radiance and leaves power). By reciprocity this is
-//! the share of the power that arrives from v which leaves again: at most 1, and 1 where nothing is absorbed
-//! (book 2.2.2, eq 2.49). Drawing directions gives the same as the mean of their weights, if they are f |cos| / pdf.
+//! ρ(v) = ∫ f(v, l) |cos θ_l| dω_l + Σ discrete lobes, over the side of the viewer (reflected) and over the
+//! other side (transmitted; there times (n_l / n_v)², which undoes the squeezing of radiance and leaves power).
+//! By reciprocity this is the share of the power that arrives from v which leaves again: at most 1, and 1 where
+//! nothing is absorbed (book eq 2.49). Drawing directions gives the same as the mean of their weights, if they
+//! are f |cos| / pdf.
 //!
 //! ```
 //! use illuminant_illumination::General;
@@ -19,12 +20,12 @@
 //! ```
 
 use crate::integrate::Quadrature;
-use crate::random::Random;
+use crate::random::{EvenPoints, single};
 use crate::site::Site;
 use illuminant_illumination::IlluminationModel;
 
-/// The share of light that comes back and the share that goes through, in every lane (zero in lanes that a dispersed path
-/// no longer carries).
+/// The share of light that comes back and the share that goes through, in every lane (zero in lanes that a
+/// dispersed path no longer carries).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Albedo<const N: usize> {
     /// To the side of the viewer.
@@ -46,7 +47,7 @@ impl<const N: usize> Albedo<N> {
 pub struct Estimate<const N: usize> {
     /// The mean over the draws.
     pub albedo: Albedo<N>,
-    /// The standard error of its total, in every lane.
+    /// The standard error of its total that as many independent draws would have, in every lane: a bound.
     pub standard_error: [f64; N],
     /// The mean of what the model gives as brightness, its estimate for the whole spectrum.
     pub brightness: f64,
@@ -54,8 +55,8 @@ pub struct Estimate<const N: usize> {
 
 /// The albedo by integrating f |cos θ| over both sides and adding the discrete lobes.
 ///
-/// Where a path disperses at this very surface (dispersive and no hero lane), rough transmission is no function of two
-/// directions and is missing here; drawing has it.
+/// Where a path disperses at this very surface (dispersive and no hero lane), rough transmission is no function
+/// of two directions and is missing here; drawing has it.
 #[must_use]
 pub fn by_quadrature<const N: usize>(
     model: &impl IlluminationModel<N>,
@@ -93,7 +94,9 @@ pub fn by_quadrature<const N: usize>(
 
 /// The albedo as the mean weight of directions that the model draws.
 ///
-/// A direction that disperses counts for one lane alone, drawn evenly, N times: as a path does it.
+/// The numbers given to `sample` fill the cube evenly, so the mean is nearer than the standard error of as many
+/// independent draws, which is what the estimate states. A direction that disperses counts for one lane alone,
+/// drawn evenly, N times: as a path does it.
 #[must_use]
 pub fn by_drawing<const N: usize>(
     model: &impl IlluminationModel<N>,
@@ -104,13 +107,13 @@ pub fn by_drawing<const N: usize>(
 ) -> Estimate<N> {
     let at = site.incidence(to_viewer);
     let squeeze = site.squeeze(to_viewer);
-    let mut random = Random::new(seed);
+    let mut points = EvenPoints::<4>::new(seed);
     let mut albedo = Albedo { reflected: [0.0; N], transmitted: [0.0; N] };
     let (mut squares, mut brightness) = ([0.0; N], 0.0);
     for _ in 0..samples {
-        let u = random.singles();
-        let hero = site.hero_lane.unwrap_or((random.unit() * N as f64) as usize);
-        let Some(drawn) = model.sample(&at, u, Some(hero)) else { continue };
+        let [a, b, c, d] = points.next_point();
+        let hero = site.hero_lane.unwrap_or((d * N as f64) as usize);
+        let Some(drawn) = model.sample(&at, [a, b, c].map(single), Some(hero)) else { continue };
         brightness += f64::from(drawn.brightness);
         let (lanes, factor) = if drawn.disperses { (hero..hero + 1, N as f64) } else { (0..N, 1.0) };
         for lane in lanes.filter(|lane| site.hero_lane.is_none_or(|hero| hero == *lane)) {

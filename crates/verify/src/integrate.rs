@@ -1,15 +1,16 @@
 //! Integrals over directions by adaptive quadrature.
 //!
 //! ∫ f(ω) dω = ∫∫ f(θ, φ) sin θ dθ dφ over cells of polar angle θ and azimuth φ, each by the product of two
-//! Gauss-Legendre rules of five points (Abramowitz and Stegun 1964, table 25.4). A cell whose quarters disagree with it
-//! is split, so a narrow highlight, a kink at the critical angle and the steep end near grazing get the points that they
-//! need. The polar angle rather than its cosine is the variable, because smooth functions of direction are smooth in it
-//! up to the pole, and because the rows then crowd at grazing, where microfacet models are steep. The horizon is a
-//! border of cells: functions may jump there.
+//! Gauss-Legendre rules of five points (Abramowitz and Stegun 1964, table 25.4). A cell whose quarters disagree
+//! with it is split, so a narrow highlight, a kink at the critical angle and the steep end near grazing get the
+//! points that they need. The polar angle rather than its cosine is the variable, because smooth functions of
+//! direction are smooth in it up to the pole, and because the rows then crowd at grazing, where microfacet
+//! models are steep. The horizon is a border of cells: functions may jump there.
 //!
-//! Valid for functions without discrete lobes whose features are at least about as wide as half a cell of the coarse
-//! grid (what falls between all coarse points is never seen). A function in f32 cannot be integrated to a relative error
-//! below about 10⁻⁶; its noise ends the splitting at [`Quadrature::tolerance`] of each cell.
+//! Valid for functions without discrete lobes whose features are at least about as wide as half a cell of the
+//! coarse grid (what falls between all coarse points is never seen, which a finer grid mends). A function in
+//! f32 cannot be integrated to a relative error below about 10⁻⁶; its noise ends the splitting at
+//! [`Quadrature::tolerance`] of each cell.
 //!
 //! ```
 //! use illuminant_verify::integrate::Quadrature;
@@ -148,6 +149,17 @@ impl Quadrature {
     ) -> [f64; K] {
         let share = self.tolerance * scale / (self.rows * self.columns) as f64;
         self.refined(f, cell, cell.gauss(f), share, self.depth)
+    }
+
+    /// The integral over a cell in which the function is zero nearly everywhere: divided 16 × 16 first, so that
+    /// a corner that the coarse points miss is found.
+    #[must_use]
+    pub fn searched<const K: usize>(&self, f: &impl Fn([f64; 3]) -> [f64; K], cell: &Cell) -> [f64; K] {
+        let mut sum = [0.0; K];
+        for part in cell.divided(16, 16) {
+            add(&mut sum, part.gauss(f));
+        }
+        sum
     }
 
     /// The integral over the whole sphere.

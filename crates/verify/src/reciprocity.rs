@@ -1,7 +1,7 @@
 //! Helmholtz reciprocity: the same when viewer and light change places.
 //!
 //! f(v, l) / n_v² = f(l, v) / n_l², with the index n of the medium on the side of each direction (Veach 1997,
-//! eq. 5.14, for radiance, which is squeezed by n² at refraction); on one side this is f(v, l) = f(l, v) (book 2.2.2).
+//! section 5.2, for radiance, which is squeezed by n² at refraction); on one side this is f(v, l) = f(l, v).
 //! Only the continuous part is looked at.
 //!
 //! Models in f32 have rounding noise that grows towards grazing angles, where f is steep; [`Reciprocity::grazing`]
@@ -32,11 +32,13 @@ impl Default for Reciprocity {
     }
 }
 
-/// The pair of directions that differ most.
+/// The pair of directions that differ most, and how much pairs differ on average.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Violation {
     /// |a − b| / max(a, b, floor) with a = f(v, l)/n_v², b = f(l, v)/n_l²; infinite when one is no number.
     pub relative: f64,
+    /// The same, averaged over all pairs and lanes.
+    pub mean: f64,
     /// The first direction.
     pub v: [f64; 3],
     /// The second.
@@ -62,6 +64,7 @@ impl Reciprocity {
     pub fn largest<const K: usize>(&self, f: impl Fn([f64; 3], [f64; 3]) -> [f64; K]) -> Violation {
         let mut random = Random::new(self.seed);
         let mut worst = Violation::default();
+        let mut sum = 0.0;
         for _ in 0..self.pairs {
             let [v, l] = std::array::from_fn(|_| {
                 loop {
@@ -74,11 +77,13 @@ impl Reciprocity {
             for (a, b) in f(v, l).into_iter().zip(f(l, v)) {
                 let difference = (a - b).abs() / a.max(b).max(self.floor);
                 let relative = if difference.is_finite() { difference } else { f64::INFINITY };
+                sum += relative;
                 if relative > worst.relative {
-                    worst = Violation { relative, v, l, values: [a, b] };
+                    worst = Violation { relative, mean: 0.0, v, l, values: [a, b] };
                 }
             }
         }
+        worst.mean = sum / (self.pairs * K as u64).max(1) as f64;
         worst
     }
 

@@ -1,9 +1,9 @@
 //! What a model says of a direction it has drawn, against what it says of the same direction when asked.
 //!
-//! For the continuous part, `sample` must give pdf(v, l) and the weight f(v, l) |cos θ_l| / pdf(v, l) of [`eval`] and
-//! [`pdf`]; models compute both along shorter ways (microfacet models cancel the distribution), so this is a test of two
-//! independent routes to one number. A mean that is right by accident (see [`crate::energy`]) is not enough: here every
-//! single direction must agree.
+//! For the continuous part, `sample` must give pdf(v, l) and the weight f(v, l) |cos θ_l| / pdf(v, l) of [`eval`]
+//! and [`pdf`]; models compute both along shorter ways (microfacet models cancel the distribution), so this is a
+//! test of two independent routes to one number. A mean that is right by accident (see [`crate::energy`]) is not
+//! enough: here every single direction must agree.
 //!
 //! [`eval`]: IlluminationModel::eval
 //! [`pdf`]: IlluminationModel::pdf
@@ -31,8 +31,8 @@ pub struct Disagreement {
 
 /// Compares the draws of a model with its answers.
 ///
-/// Directions closer than `grazing` (|cos θ|) to the horizon are left out, where f32 has lost the half vector; so are
-/// discrete lobes and directions that disperse.
+/// Directions closer than `grazing` (|cos θ|) to the horizon are left out, where f32 has lost the half vector;
+/// so are discrete lobes and directions that disperse.
 ///
 /// ```
 /// use illuminant_illumination::General;

@@ -1,7 +1,7 @@
 //! A point of a surface: the media above and below it.
 //!
-//! An [`Incidence`] belongs to one direction of view; reciprocity and energy look from both sides. A [`Site`] holds
-//! what both views share and makes the incidence of either.
+//! An [`Incidence`] belongs to one direction of view; reciprocity and energy look from both sides. A [`Site`]
+//! holds what both views share and makes the incidence of either.
 
 use glam::Vec3;
 use illuminant_illumination::{IlluminationModel, Incidence, Index};
