@@ -82,9 +82,12 @@ const D65: [f64; 2] = [0.3127, 0.3290];
 const D60: [f64; 2] = [0.321_68, 0.337_67];
 const REC709: [[f64; 2]; 3] = [[0.640, 0.330], [0.300, 0.600], [0.150, 0.060]];
 
-/// Name, primaries, white and transfer of the systems that are known by name.
+/// Name, primaries, white and transfer.
+type Known = (&'static str, [[f64; 2]; 3], [f64; 2], Transfer);
+
+/// The systems that are known by name.
 #[rustfmt::skip]
-const SYSTEMS: &[(&str, [[f64; 2]; 3], [f64; 2], Transfer)] = &[
+const SYSTEMS: &[Known] = &[
     ("sRGB", REC709, D65, Transfer::Srgb),
     ("Rec.709", REC709, D65, Transfer::Rec709),
     ("Rec.2020", [[0.708, 0.292], [0.170, 0.797], [0.131, 0.046]], D65, Transfer::Rec709),

@@ -36,7 +36,7 @@ impl Real for f32 {
     #[inline(always)]
     fn arc_cos(self) -> Self {
         const C: [f32; 8] = [
-            1.570_796_3,
+            std::f32::consts::FRAC_PI_2,
             -0.214_598_8,
             0.088_978_99,
             -0.050_174_303,

@@ -94,9 +94,9 @@ mod tests {
         )
         .unwrap();
         let paints = [paint];
-        let exact = spectral_error(&OneNanometre::new(range), range, &[day.clone()], &paints);
+        let exact = spectral_error(&OneNanometre::new(range), range, std::slice::from_ref(&day), &paints);
         assert!(exact.max < 1e-9);
-        let smooth = spectral_error(&Uniform::new(32, range), range, &[day.clone()], &paints);
+        let smooth = spectral_error(&Uniform::new(32, range), range, std::slice::from_ref(&day), &paints);
         let lines = spectral_error(&Uniform::new(32, range), range, &[day, line], &paints);
         assert!(smooth.max < 0.5 && lines.max > 2.0 && lines.lamp == 1, "{smooth:?} {lines:?}");
     }

@@ -175,7 +175,7 @@ pub struct Geometry {
     shapes: Vec<Shape>,
     objects: Vec<Placed>,
     #[allow(dead_code)] // buffers that Embree shares
-    sphere_buffers: Vec<Box<[f32; 4]>>,
+    sphere_buffers: Vec<[f32; 4]>,
     bounds: (Vec3, Vec3),
     triangles: usize,
 }
@@ -307,7 +307,8 @@ impl Geometry {
     fn build(shapes: Vec<Shape>, objects: Vec<Placed>, threads: usize) -> Result<Self, GeometryError> {
         let device = Device::new(threads)?;
         let api = device.api;
-        let mut sphere_buffers: Vec<Box<[f32; 4]>> = Vec::new();
+        // Room for all from the start: Embree keeps pointers into it.
+        let mut sphere_buffers: Vec<[f32; 4]> = Vec::with_capacity(shapes.len() + objects.len());
         let new_scene = || {
             // SAFETY: the device is alive.
             let handle = unsafe { (api.new_scene)(device.handle) };
@@ -350,7 +351,7 @@ impl Geometry {
                         geometry
                     }
                     Shape::Sphere { center, radius } => {
-                        sphere_buffers.push(Box::new([center.x, center.y, center.z, *radius]));
+                        sphere_buffers.push([center.x, center.y, center.z, *radius]);
                         let buffer: *const f32 = sphere_buffers[sphere_buffers.len() - 1].as_ptr();
                         let geometry = (api.new_geometry)(device.handle, embree::SPHERE_POINT);
                         (api.set_buffer)(

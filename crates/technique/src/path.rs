@@ -145,7 +145,6 @@ impl PathTracer {
     /// Follows one path and adds the radiance that it brings to `radiance`, one bundle for each group of lamps.
     ///
     /// `u_hero` chooses the sample that a dispersive refraction would keep.
-    #[allow(clippy::too_many_arguments)]
     #[inline]
     pub fn trace<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
         &self,
@@ -224,7 +223,6 @@ impl PathTracer {
     }
 
     /// Asks a lamp, then draws the next direction; whether the path goes on.
-    #[allow(clippy::too_many_arguments)]
     #[inline(always)]
     fn scatter<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
         &self,
@@ -298,7 +296,6 @@ impl PathTracer {
     }
 
     /// Next-event estimation: one lamp, one direction, one shadow ray.
-    #[allow(clippy::too_many_arguments)]
     #[inline(always)]
     fn ask_lamp<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
         &self,
