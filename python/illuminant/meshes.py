@@ -1,7 +1,7 @@
 """Meshes from files: OBJ, PLY, STL, GLB and glTF, also compressed by gzip (`.ply.gz`).
 
-trimesh reads them (it is imported only when such a file is read, which takes seconds). It checks nothing, so all is
-checked here: a mesh that comes back has faces, finite vertices, vertex numbers in range and no face without area.
+Plain PLY files are read by `ply`, all others by trimesh (it is imported only for them, which takes seconds). Neither
+checks anything, so all is checked here: a mesh that comes back has faces, finite vertices, vertex numbers in range and no face without area.
 All geometries of a file become one mesh, each under its transform in the file. Vertex normals and texture
 coordinates are kept where every part has them; materials, colours and textures of the file are not read.
 
@@ -24,6 +24,7 @@ import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from illuminant import ply
 from illuminant.errors import DataError
 from illuminant.shapes import Mesh
 
@@ -109,6 +110,13 @@ def _bytes(path: Path) -> bytes:
 
 
 def _parts(data: bytes, kind: str, folder: Path) -> list[Mesh]:
+    """The meshes in a file, each under its transform."""
+    if kind == "ply" and (plain := ply.read(data)) is not None:
+        return [plain if plain.normals is None else _with_unit_normals(plain)]
+    return _parts_by_trimesh(data, kind, folder)
+
+
+def _parts_by_trimesh(data: bytes, kind: str, folder: Path) -> list[Mesh]:
     import logging
 
     import numpy as np
