@@ -80,6 +80,19 @@ fn conductor_lanes<const N: usize>(cos: f32, n: &Lanes<N>, k: &Lanes<N>, near: &
     Lanes(std::array::from_fn(|i| conductor(cos, n.0[i] / near.0[i], k.0[i] / near.0[i])))
 }
 
+/// dω_h / dω_l of a refraction at a facet (Walter et al. 2007, eq 17); `cos_l` is negative.
+#[inline(always)]
+fn transmission_jacobian(cos_v: f32, cos_l: f32, eta: f32) -> f32 {
+    let denominator = cos_v + eta * cos_l;
+    eta * eta * -cos_l / (denominator * denominator)
+}
+
+/// Whether two media have one index, to the rounding of f32: then their boundary is none.
+#[inline(always)]
+fn is_matched(eta: f32) -> bool {
+    (eta - 1.0).abs() < 1e-6
+}
+
 /// The boundary between two dielectrics as a path sees it that may carry one lane only.
 struct Boundary<const N: usize> {
     /// n_far / n_near by which directions are bent.
@@ -158,6 +171,9 @@ impl<const N: usize> General<N> {
                 return (Lanes::default(), 0.0);
             }
             let eta = boundary.eta;
+            if is_matched(eta) {
+                return (Lanes::default(), 0.0);
+            }
             let h = -(Vec3::from(v) + Vec3::from(l) * eta);
             let h = h.normalize_or_zero();
             let h = if h.z < 0.0 { -h } else { h }.to_array();
@@ -167,8 +183,7 @@ impl<const N: usize> General<N> {
             }
             let boundary = Boundary::new(at, dispersive, at.hero_lane, cos_v);
             let d = ggx.distribution(h);
-            let denominator = cos_v + eta * cos_l;
-            let jacobian = eta * eta * -cos_l / (denominator * denominator);
+            let jacobian = transmission_jacobian(cos_v, cos_l, eta);
             let g = ggx.masking_shadowing(v, l);
             // Radiance is squeezed by n²: 1/η² beside the jacobian of flux.
             let shape = d * g * cos_v * jacobian / (v[2] * eta * eta);
@@ -210,18 +225,19 @@ impl<const N: usize> General<N> {
         let mut weight = fraction * scale.recip();
         let mut pdf = None;
         let mut seen = 1.0;
-        if let Some(ggx) = facets {
+        // Between equal indices nothing is bent: the light goes straight on, a discrete lobe that hides no facet.
+        let straight = !reflects && is_matched(boundary.eta);
+        if let Some(ggx) = facets.filter(|_| !straight) {
             // VNDF: what is left of D G₂ / (pdf) is G₂/G₁.
             seen = ggx.masking_shadowing(v, direction) / ggx.masking(v);
             weight *= seen;
-            pdf = Some(if reflects {
+            let density = if reflects {
                 scale * ggx.pdf_visible(v, h) / (4.0 * cos)
             } else {
-                let cos_l = dot(direction, h);
-                let denominator = cos + boundary.eta * cos_l;
-                let jacobian = boundary.eta * boundary.eta * -cos_l / (denominator * denominator);
-                scale * ggx.pdf_visible(v, h) * jacobian
-            });
+                scale * ggx.pdf_visible(v, h) * transmission_jacobian(cos, dot(direction, h), boundary.eta)
+            };
+            // A direction that belongs to one lane is known to no density that others share.
+            pdf = (reflects || !boundary.disperses).then_some(density);
         }
         Some(Scattered {
             direction: Vec3::from(direction) * flip,

@@ -1,6 +1,6 @@
 //! What a material is, physically.
 
-use illuminant_spectrum::{Curve, Observer, SpectralRange};
+use illuminant_spectrum::{Curve, SpectralRange};
 
 /// The wavelength whose index stands for a dielectric wherever one number must do: sodium d, 589.3 nm.
 pub const REPRESENTATIVE_NM: f64 = 589.3;
@@ -60,15 +60,13 @@ impl Material {
         }
     }
 
-    /// One number for the whole spectrum, by which paths are chosen and ended: the largest of the X, Y and Z of the
-    /// representative reflectance under equal energy. It never depends on the spectral sampling, so that all
-    /// samplings follow the same paths.
+    /// One number for the whole spectrum, by which paths are chosen and ended: the largest reflectance over the range.
+    ///
+    /// It never depends on the spectral sampling, so that all samplings follow the same paths; and since no wavelength
+    /// is reflected more strongly, no lane's variance grows with the length of a path (a mean would let that of any
+    /// wavelength with ρ² above it grow without bound).
     #[must_use]
     pub fn brightness(&self, range: SpectralRange) -> f64 {
-        let reflectance = self.representative_reflectance(range);
-        let observer = Observer::cie_1931_2deg();
-        let white = observer.xyz(&Curve::constant(1.0), range);
-        let xyz = observer.xyz(&reflectance, range);
-        xyz.iter().zip(white).map(|(v, w)| if w > 0.0 { v / w } else { 0.0 }).fold(0.0, f64::max)
+        self.representative_reflectance(range).extent(range).1
     }
 }

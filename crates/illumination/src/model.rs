@@ -59,7 +59,8 @@ pub struct Scattered<const N: usize> {
     pub weight: Lanes<N>,
     /// The same for the whole spectrum as one number, without the n² of radiance: what decides a path's length.
     pub brightness: f32,
-    /// Density of the direction, 1/sr; `None` for a discrete lobe.
+    /// Density of the direction, 1/sr; `None` where `eval` and `pdf` do not know it: for a discrete lobe, and for a
+    /// direction that dispersion gives to one lane alone.
     pub pdf: Option<f32>,
     /// Whether the direction lies on the other side.
     pub transmitted: bool,

@@ -170,6 +170,15 @@ impl PyRender {
         Ok(shaped(Array2::from_shape_vec((3, flat.len() / 3), flat))?.to_pyarray(py))
     }
 
+    /// The queries of these samples again, without shading: their number and the seconds they take.
+    fn ray_rate<'py>(&self, py: Python<'py>, first: u64, last: u64) -> PyResult<Bound<'py, PyDict>> {
+        let (rays, elapsed) = py.detach(|| self.0.ray_rate(first..last));
+        let dict = PyDict::new(py);
+        dict.set_item("rays", rays)?;
+        dict.set_item("seconds", elapsed.as_secs_f64())?;
+        Ok(dict)
+    }
+
     /// The vertices of the path of one sample of one pixel, pass by pass, and what it brought.
     fn replay<'py>(&self, py: Python<'py>, x: u32, y: u32, sample: u64) -> PyResult<Bound<'py, PyDict>> {
         let [x0, y0, x1, y1] = self.0.film().crop;

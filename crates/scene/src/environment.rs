@@ -6,6 +6,7 @@ use illuminant_sampling::Lanes;
 use illuminant_spectrum::{Curve, SpectralRange};
 use rayon::prelude::*;
 use std::f32::consts::{PI, TAU};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A texel as a spectrum: `scale` · s(λ; c₀, c₁, c₂) · white(λ).
 #[derive(Clone, Copy, Debug, Default)]
@@ -57,9 +58,7 @@ impl EnvironmentImage {
                 rgb[i]
             ));
         }
-        let upsampler = Upsampler::new(system, range);
-        let table =
-            SigmoidTable::new(&upsampler, 32, |rows, row| (0..rows).into_par_iter().map(row).collect());
+        let table = sigmoid_table(system, range);
         let texels: Vec<Texel> = rgb
             .par_chunks_exact(3)
             .map(|p| {
@@ -77,12 +76,26 @@ impl EnvironmentImage {
         let mut rows = vec![0.0f32; height];
         let mut total = 0.0f64;
         let mut plain = 0.0f64;
+        let luminance: Vec<f64> = rgb
+            .par_chunks_exact(3)
+            .map(|p| system.to_xyz([p[0], p[1], p[2]].map(f64::from))[1].max(0.0))
+            .collect();
+        // Radiance is bilinear between texels, so a texel's share of it reaches into its neighbours: the mean of the
+        // bilinear function over a texel is this blur of the texels' values.
+        let blurred = |x: usize, y: usize| {
+            let mut sum = 0.0;
+            for (row, wy) in [(y.saturating_sub(1), 0.125), (y, 0.75), ((y + 1).min(height - 1), 0.125)] {
+                for (column, wx) in [((x + width - 1) % width, 0.125), (x, 0.75), ((x + 1) % width, 0.125)] {
+                    sum += wx * wy * luminance[row * width + column];
+                }
+            }
+            sum
+        };
         for y in 0..height {
             let sin = ((y as f64 + 0.5) / height as f64 * std::f64::consts::PI).sin();
             let mut sum = 0.0f64;
             for x in 0..width {
-                let p = &rgb[3 * (y * width + x)..][..3];
-                let luminance = system.to_xyz([p[0], p[1], p[2]].map(f64::from))[1].max(0.0);
+                let luminance = blurred(x, y);
                 sum += luminance;
                 plain += luminance;
                 columns[y * width + x] = sum as f32;
@@ -193,6 +206,22 @@ impl EnvironmentImage {
         }
         probability * (self.width * self.height) as f32 / (2.0 * PI * PI * sin)
     }
+}
+
+/// The table of an RGB system over a range, made once: it takes a second.
+fn sigmoid_table(system: &RgbSystem, range: SpectralRange) -> Arc<SigmoidTable> {
+    type Tables = Vec<(RgbSystem, SpectralRange, Arc<SigmoidTable>)>;
+    static TABLES: Mutex<Tables> = Mutex::new(Vec::new());
+    let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((.., table)) = tables.iter().find(|(s, r, _)| s == system && *r == range) {
+        return Arc::clone(table);
+    }
+    let upsampler = Upsampler::new(system, range);
+    let spread =
+        |rows, row: &(dyn Fn(usize) -> Vec<[f32; 3]> + Sync)| (0..rows).into_par_iter().map(row).collect();
+    let table = Arc::new(SigmoidTable::new(&upsampler, 32, spread));
+    tables.push((system.clone(), range, Arc::clone(&table)));
+    table
 }
 
 /// The cell of running sums (from 0 to 1) that holds `u`, and how far into it; `None` when all are zero.

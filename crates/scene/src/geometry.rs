@@ -93,6 +93,8 @@ pub struct Hit {
     pub primitive: u32,
     /// Barycentric coordinates of the second and third corner.
     pub barycentric: [f32; 2],
+    /// The normal of the triangle in its own coordinates, of any length.
+    pub normal: Vec3,
 }
 
 /// The surface at a hit.
@@ -176,6 +178,8 @@ pub struct Geometry {
     objects: Vec<Placed>,
     #[allow(dead_code)] // buffers that Embree shares
     sphere_buffers: Vec<[f32; 4]>,
+    /// For each object, how far the coordinates of its shape and the edges between them reach.
+    reaches: Vec<f32>,
     bounds: (Vec3, Vec3),
     triangles: usize,
 }
@@ -426,6 +430,7 @@ impl Geometry {
             objects,
             sphere_buffers,
             bounds: (Vec3::ZERO, Vec3::ZERO),
+            reaches: Vec::new(),
             triangles: 0,
         };
         geometry.measure();
@@ -436,6 +441,7 @@ impl Geometry {
         let mut low = Vec3::INFINITY;
         let mut high = Vec3::NEG_INFINITY;
         let mut triangles = 0;
+        let mut reaches = Vec::with_capacity(self.objects.len());
         for object in 0..self.objects.len() {
             let (shape, keys) = match &self.objects[object] {
                 Placed::Baked(shape) => (shape, vec![Affine3A::IDENTITY]),
@@ -462,11 +468,13 @@ impl Geometry {
             if let Shape::Mesh(mesh) = shape {
                 triangles += mesh.indices.len();
             }
+            reaches.push(reach(shape));
         }
         if low.x <= high.x {
             self.bounds = (low, high);
         }
         self.triangles = triangles;
+        self.reaches = reaches;
     }
 
     /// The corners of the box around everything.
@@ -525,6 +533,7 @@ impl Geometry {
             object,
             primitive: query.hit.prim_id,
             barycentric: [query.hit.u, query.hit.v],
+            normal: Vec3::from(query.hit.ng),
         })
     }
 
@@ -552,14 +561,14 @@ impl Geometry {
     #[must_use]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         match &self.objects[hit.object as usize] {
-            Placed::Baked(Shape::Mesh(mesh)) => mesh_point(mesh, hit),
+            Placed::Baked(Shape::Mesh(mesh)) => mesh_point(mesh, self.reaches[hit.object as usize], hit),
             Placed::Baked(Shape::Sphere { center, radius }) => {
                 sphere_point(*center, *radius, ray.origin + ray.direction * hit.distance)
             }
             Placed::Instance { shape, motion } => {
                 let to_world = motion.at(ray.time);
                 let local = match &self.shapes[*shape] {
-                    Shape::Mesh(mesh) => mesh_point(mesh, hit),
+                    Shape::Mesh(mesh) => mesh_point(mesh, self.reaches[hit.object as usize], hit),
                     Shape::Sphere { center, radius } => {
                         let from_world = to_world.inverse();
                         let p = from_world.transform_point3(ray.origin + ray.direction * hit.distance);
@@ -658,18 +667,26 @@ unsafe extern "C" fn break_ties(arguments: *const embree::RtcFilterArguments) {
     }
 }
 
+/// The largest sum of coordinates and edges of any face: what the rounding of a point on it is proportional to.
+fn reach(shape: &Shape) -> f32 {
+    let Shape::Mesh(mesh) = shape else { return 0.0 };
+    let of_face = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|i| mesh.positions[i as usize]);
+        (a.abs() + b.abs() + c.abs() + (b - a).abs() + (c - a).abs()).max_element()
+    };
+    mesh.indices.iter().map(of_face).fold(0.0, f32::max)
+}
+
 #[inline(always)]
-fn mesh_point(mesh: &Mesh, hit: &Hit) -> SurfacePoint {
+fn mesh_point(mesh: &Mesh, reach: f32, hit: &Hit) -> SurfacePoint {
     let corners = mesh.indices[hit.primitive as usize].map(|i| i as usize);
     let [a, b, c] = corners.map(|i| mesh.positions[i]);
     let [v, w] = hit.barycentric;
     let u = 1.0 - v - w;
     let position = a * u + b * v + c * w;
-    let (e1, e2) = (b - a, c - a);
-    let geometric_normal = e1.cross(e2).normalize();
+    let geometric_normal = hit.normal.normalize();
     // The position errs with the size of its terms; a query from there errs with the distances to the corners, along
     // every axis, also along one on which all corners have the coordinate 0.
-    let reach = (a.abs() + b.abs() + c.abs() + e1.abs() + e2.abs()).max_element();
     let error = Vec3::splat(reach * gamma(8));
     let normal = mesh.normals.as_ref().map_or(geometric_normal, |normals| {
         let [na, nb, nc] = corners.map(|i| normals[i]);

@@ -96,7 +96,7 @@ enum Outline {
 
 /// Below about this solid angle (sr) a lamp is sampled by area: its cosine and distance hardly vary, and f32 is too
 /// coarse for its angles.
-const SMALL: f32 = 0.1;
+const SMALL: f32 = 0.25;
 
 /// Whether a lamp around `center` is so small from a point. A lamp that is seen edge-on counts by its whole area, so
 /// that one which is near is not taken for small.
@@ -221,15 +221,16 @@ impl SurfaceLamp {
                 }
             }
         };
-        let direction = (target - from).normalize_or_zero();
-        if direction == Vec3::ZERO || !self.emits_towards(normal, direction) {
+        let span = target - from;
+        let distance = span.length();
+        let direction = span / distance;
+        let cos = normal.dot(direction);
+        if !(distance > 0.0) || !(self.two_sided || cos < 0.0) {
             return None;
         }
         // Stop short of the lamp's own surface.
-        let target = target
-            + normal
-                * (1e-5 * (target.abs().max_element() + (target - from).length()))
-                    .copysign(-normal.dot(direction));
+        let short = 1e-5 * (target.abs().max_element() + distance);
+        let target = target - normal * short.copysign(cos);
         Some(LampSample { direction, target: Some(target), pdf: Some(pdf), scale: 1.0, uv: None })
     }
 
@@ -271,7 +272,7 @@ fn seen_rectangle(
         return None;
     }
     let seen = SphericalRectangle::new(corner.to_array(), x.to_array(), y.to_array(), size, from.to_array());
-    seen.filter(|s| s.solid_angle() > 0.05 * SMALL)
+    seen.filter(|s| s.solid_angle() > 0.02 * SMALL)
 }
 
 /// A triangle on the sphere around a point; `None` where it is better sampled by area.
@@ -281,7 +282,7 @@ fn seen_triangle(from: Vec3, corners: [Vec3; 3], area: f32) -> Option<SphericalT
         return None;
     }
     let seen = SphericalTriangle::new(corners.map(|p| p.to_array()), from.to_array());
-    seen.filter(|s| s.solid_angle() > 0.05 * SMALL)
+    seen.filter(|s| s.solid_angle() > 0.02 * SMALL)
 }
 
 /// Two triangles as a rectangle, if they are one.

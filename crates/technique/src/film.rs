@@ -1,28 +1,36 @@
 //! The film: exact sums of samples, in named layers.
 //!
-//! Each value is added as a whole multiple of 2⁻⁶⁴ to a 128-bit integer. Integer sums do not depend on their order, so
+//! Each value is added as a whole multiple of 2⁻⁴⁸ to a 128-bit integer. Integer sums do not depend on their order, so
 //! any split of the work (threads, tiles, ranges of samples, machines, restarts) gives the same bits, and no block of
 //! samples has to be kept together. Memory depends on pixels and channels, not on samples.
 
 use crate::settings::{Layer, Settings};
 use std::ops::Range;
 
-/// A value as a multiple of 2⁻⁶⁴, towards zero; the caller has made sure that it is finite. Values from 2⁶² on are cut.
+/// The smallest size that a film cannot hold, 2⁴⁷: a sample that reaches it is dropped. Below it 2³² samples can be
+/// summed without overflow.
+pub const TOO_LARGE: f32 = 140_737_488_355_328.0;
+
+/// The number of fraction bits of a sum.
+const FRACTION: i32 = 48;
+
+/// A value of size below [`TOO_LARGE`] as a multiple of 2⁻⁴⁸, towards zero.
 #[inline(always)]
 #[must_use]
 pub fn fixed(value: f32) -> i128 {
+    debug_assert!(value.abs() < TOO_LARGE);
     let bits = value.to_bits();
     let exponent = (bits >> 23 & 0xff) as i32;
     let mantissa = i128::from(bits & 0x7f_ffff | if exponent > 0 { 0x80_0000 } else { 0 });
-    let shift = exponent.max(1) - 150 + 64;
-    let magnitude = if shift >= 0 { mantissa << shift.min(102) } else { mantissa >> (-shift).min(127) };
+    let shift = exponent.max(1) - 150 + FRACTION;
+    let magnitude = if shift >= 0 { mantissa << shift.min(100) } else { mantissa >> (-shift).min(127) };
     if value.is_sign_negative() { -magnitude } else { magnitude }
 }
 
 /// The number that a sum stands for.
 #[must_use]
 fn value(sum: i128) -> f64 {
-    sum as f64 / 18_446_744_073_709_551_616.0
+    sum as f64 / (1i64 << FRACTION) as f64
 }
 
 /// Where the channels of a layer lie among those of a pixel.
@@ -43,6 +51,8 @@ pub struct TileFilm {
     pub area: [u32; 4],
     /// Samples that each pixel holds, dropped ones not counted.
     pub samples: Vec<u32>,
+    /// The samples that the tile has seen, as disjoint ranges in order.
+    seen: Vec<Range<u64>>,
     sums: Vec<i128>,
     channels: usize,
 }
@@ -54,8 +64,35 @@ impl TileFilm {
         self.samples[pixel] += 1;
         let sums = &mut self.sums[pixel * self.channels..][..self.channels];
         for (sum, &v) in sums.iter_mut().zip(values) {
-            *sum = sum.wrapping_add(fixed(v));
+            *sum += fixed(v);
         }
+    }
+
+    /// The parts of a range of samples that the tile has not seen, which it then counts as seen: so that a range which
+    /// was cancelled half-way, or overlaps another, is taken up where it is missing.
+    pub fn claim(&mut self, wanted: Range<u64>) -> Vec<Range<u64>> {
+        let mut missing = Vec::new();
+        let mut from = wanted.start;
+        for seen in &self.seen {
+            if seen.start > from && from < wanted.end {
+                missing.push(from..seen.start.min(wanted.end));
+            }
+            from = from.max(seen.end);
+        }
+        if from < wanted.end {
+            missing.push(from..wanted.end);
+        }
+        self.seen.extend(missing.iter().cloned());
+        self.seen.sort_by_key(|range| range.start);
+        let mut joined: Vec<Range<u64>> = Vec::with_capacity(self.seen.len());
+        for range in self.seen.drain(..) {
+            match joined.last_mut().filter(|last| last.end == range.start) {
+                Some(last) => last.end = range.end,
+                None => joined.push(range),
+            }
+        }
+        self.seen = joined;
+        missing
     }
 
     /// Columns of the tile.
@@ -113,6 +150,7 @@ impl Film {
                 tiles.push(TileFilm {
                     area,
                     samples: vec![0; pixels],
+                    seen: Vec::new(),
                     sums: vec![0; pixels * channels],
                     channels,
                 });
@@ -206,7 +244,7 @@ mod tests {
         #[test]
         fn fixed_point_is_the_value(v in -1e12f32..1e12) {
             let back = value(fixed(v));
-            prop_assert!((back - f64::from(v)).abs() <= 6e-20 + 1e-15 * f64::from(v).abs());
+            prop_assert!((back - f64::from(v)).abs() <= 4e-15 + 1e-15 * f64::from(v).abs());
         }
 
         #[test]
@@ -219,9 +257,23 @@ mod tests {
     }
 
     #[test]
-    fn extremes_are_cut_not_wrapped() {
-        assert!(fixed(f32::MAX) > 0 && value(fixed(f32::MAX)) > 1e18);
+    fn no_sample_is_claimed_twice() {
+        let film = Film::new([0, 0, 4, 4], &Settings::default(), &[], 8);
+        let mut tile = film.tiles[0].clone();
+        assert_eq!(tile.claim(4..8), [4..8]);
+        assert_eq!(tile.claim(4..8), []);
+        assert_eq!(tile.claim(0..16), [0..4, 8..16]);
+        assert_eq!(tile.claim(20..24), [20..24]);
+        assert_eq!(tile.claim(10..22), [16..20]);
+        assert_eq!(tile.seen, [0..24]);
+    }
+
+    #[test]
+    fn the_largest_value_fits_four_thousand_million_times() {
+        let largest = f32::from_bits(TOO_LARGE.to_bits() - 1);
+        assert_eq!(value(fixed(largest)), f64::from(largest));
+        assert!(fixed(largest).checked_mul(1 << 32).is_some());
         assert_eq!(fixed(f32::MIN_POSITIVE), 0);
-        assert_eq!(value(fixed(1.0)), 1.0);
+        assert_eq!((value(fixed(1.0)), value(fixed(-0.75))), (1.0, -0.75));
     }
 }

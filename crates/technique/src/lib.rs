@@ -9,7 +9,7 @@ mod render;
 mod sequence;
 mod settings;
 
-pub use film::{Film, LayerPlan, TileFilm, fixed};
+pub use film::{Film, LayerPlan, TOO_LARGE, TileFilm, fixed};
 pub use filter::{Filter, FilterSampler};
 pub use path::{Counts, PathTracer, Probe, Query, Recorder, Vertex};
 pub use render::{Dropped, Progress, Render, RenderError, Replay, Statistics};

@@ -1,6 +1,6 @@
 //! A render: a scene, its settings, and a film that fills up.
 
-use crate::film::{Film, TileFilm};
+use crate::film::{Film, TOO_LARGE, TileFilm};
 use crate::filter::FilterSampler;
 use crate::lanes::Pass;
 use crate::path::{Counts, PathTracer, Primary, Probe, Query, Recorder, Vertex};
@@ -184,6 +184,7 @@ fn add_xyz<const N: usize, M>(pass: &Pass<N, M>, radiance: &[Lanes<N>], xyz: &mu
 impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<N, M> {
     fn tile(&self, job: &Job, tile: &mut TileFilm, samples: Range<u64>) -> TileCounts {
         let mut result = TileCounts::default();
+        let missing = tile.claim(samples);
         let groups = self.passes.first().map_or(0, |pass| pass.to_xyz.len());
         let mut radiance = vec![Lanes::<N>::default(); groups];
         let mut values = vec![0.0f32; job.channels];
@@ -191,7 +192,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
         let [x0, y0, ..] = tile.area;
         for i in 0..tile.samples.len() {
             let pixel = [x0 + i as u32 % tile.width(), y0 + i as u32 / tile.width()];
-            for sample in samples.clone() {
+            for sample in missing.iter().cloned().flatten() {
                 result.samples += 1;
                 let mut xyz = [0.0f32; 3];
                 let mut sound = true;
@@ -205,7 +206,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
                             spectral_layers(job, pass, light, &mut values);
                         }
                     });
-                if !(sound && xyz.iter().all(|v| v.is_finite())) {
+                if !(sound && xyz.iter().all(|v| v.abs() < TOO_LARGE)) {
                     result.dropped.push((pixel, sample));
                     continue;
                 }
@@ -343,7 +344,7 @@ impl Render {
         Ok(Self { job, renderer, basis, film, statistics: Statistics::default(), pool })
     }
 
-    /// Renders samples `samples` of every pixel; false when it was cancelled. Tiles are taken in any order by any
+    /// Renders samples `samples` of every pixel, those left out that it holds already; false when it was cancelled. Tiles are taken in any order by any
     /// thread, and the bits do not depend on it.
     pub fn run(&mut self, samples: Range<u64>, progress: &Progress) -> bool {
         let start = Instant::now();
@@ -385,7 +386,7 @@ impl Render {
 
     /// Finds the first vertex at which a dropped sample was no radiance.
     fn blame(&self, pixel: [u32; 2], sample: u64) -> Dropped {
-        let bad = |values: &[f32]| values.iter().any(|v| !(v.is_finite() && *v >= 0.0));
+        let bad = |values: &[f32]| values.iter().any(|v| !(*v >= 0.0 && *v < TOO_LARGE));
         let replay = self.replay(pixel, sample);
         let guilty = replay
             .passes
@@ -408,6 +409,35 @@ impl Render {
     #[must_use]
     pub fn replay(&self, pixel: [u32; 2], sample: u64) -> Replay {
         self.renderer.replay(&self.job, pixel, sample)
+    }
+
+    /// Asks the queries of these samples again, in the same order by the same threads, but without shading: how many they
+    /// are and how long they take. It is the limit that the speed of a render is judged by.
+    #[must_use]
+    pub fn ray_rate(&self, samples: Range<u64>) -> (u64, Duration) {
+        let of_tile = |tile: &TileFilm| {
+            let [x0, y0, x1, y1] = tile.area;
+            let pixels = (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y]));
+            let paths = pixels.flat_map(|pixel| samples.clone().map(move |sample| (pixel, sample)));
+            paths.flat_map(|(pixel, sample)| self.replay(pixel, sample).queries).collect::<Vec<Query>>()
+        };
+        let geometry = &self.job.scene.geometry;
+        let ask = |query: &Query| match query {
+            Query::Closest(ray) => geometry.closest_hit(ray).is_some(),
+            Query::Occlusion(origin, span, tfar) => geometry.is_occluded(*origin, *span, 0.0, *tfar),
+        };
+        self.pool.install(|| {
+            let tiles: Vec<Vec<Query>> = self.film.tiles.par_iter().with_max_len(1).map(of_tile).collect();
+            let count = tiles.iter().map(|queries| queries.len() as u64).sum();
+            let start = Instant::now();
+            let met: usize = tiles
+                .par_iter()
+                .with_max_len(1)
+                .map(|queries| queries.iter().filter(|q| ask(q)).count())
+                .sum();
+            std::hint::black_box(met);
+            (count, start.elapsed())
+        })
     }
 
     /// The film.
