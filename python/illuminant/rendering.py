@@ -33,7 +33,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from illuminant import machine
 from illuminant.core import core, embree
-from illuminant.errors import Interrupted, MachineError, UsageError
+from illuminant.errors import Error, Interrupted, MachineError, UsageError
+from illuminant.examination import WORDS, refuse
 from illuminant.image import Image
 from illuminant.settings import Settings, resolve
 
@@ -179,10 +180,13 @@ class Job:
         self._began = clock.monotonic()
         try:
             self.core_scene = self.scene.core(self.settings.threads)
+            refuse(self.scene, words=())
             self.core_render = core().Render(self.core_scene, self.settings.to_core())
+        except Error:
+            raise
         except ValueError as error:
-            if isinstance(error, UsageError) or hasattr(error, "problems"):
-                raise
+            # A word that the core does not know is a mistake of the scene, unless an option gave it.
+            refuse(self.scene, words=[word for word in WORDS if options.get(word) is None])
             raise UsageError(_sentence(error)) from error
         except MemoryError as error:
             raise MachineError("There is not enough memory for this scene and image.") from error

@@ -215,7 +215,12 @@ def _sentence(
         return f"must be {_one_of(quoted)}, found {found(value)}", hint, "choice"
     if sort in _BOUND:
         bound, relation = _BOUND[sort]
-        return f"must be {relation} {context[bound]:g}, found {found(value)}", "", "range"
+        limit = context[bound]
+        return (
+            f"must be {relation} {limit if isinstance(limit, int) else f'{limit:g}'}, found {found(value)}",
+            "",
+            "range",
+        )
     if sort in ("too_short", "too_long"):
         wanted = context.get("min_length" if sort == "too_short" else "max_length")
         return f"must have {wanted} entries, found {context.get('actual_length')}", "", "length"

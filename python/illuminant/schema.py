@@ -175,8 +175,10 @@ class Render(Table):
     technique: str | None = key("how light is followed", '"path"', None)
     illumination: str | None = key("what a surface does with it", '"general"', None)
     sampling: str | None = key("how wavelengths are carried", '"uniform:32"', None)
-    samples: Annotated[int, Field(ge=1)] | None = key("samples of each pixel", "256", None)
-    depth: Annotated[int, Field(ge=0)] | None = key("largest number of bounces; default no limit", "16", None)
+    samples: Annotated[int, Field(ge=1, lt=2**32)] | None = key("samples of each pixel", "256", None)
+    depth: Annotated[int, Field(ge=1, lt=2**16)] | None = key(
+        "longest path in segments: 1 shows lamps only, 2 direct light; default no limit", "16", None
+    )
     seed: Annotated[int, Field(ge=0, lt=2**63)] | None = key("seed of the random numbers", "1", None)
     exposure: Positive | None = key("factor from luminance in cd/m² to the display's 0 to 1", "0.01", None)
     filter: Filter | None = key("reconstruction filter", '{ kind = "gaussian", radius = 1.5 }', None)

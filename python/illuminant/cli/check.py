@@ -29,25 +29,35 @@ def check(
     Example:
       illuminant check room.toml
     """
-    from illuminant import scene_file
-    from illuminant.cli.report import emit_json
-    from illuminant.errors import UsageError
+    from illuminant import examination, scene_file
+    from illuminant.cli.report import emit_json, warning
+    from illuminant.errors import Problem, SceneError, UsageError
+    from illuminant.scene import Scene
 
     if schema:
         typer.echo(scene_file.schema_text().rstrip("\n"))
         return
     if not scenes:
         raise UsageError("Name a scene file, or use --schema to print what may stand in one.")
-    for scene in scenes:
-        if not scene.is_file():
-            raise UsageError(f"{scene}: there is no such file.")
-    problems = {str(path): list(scene_file.check(path)) for path in scenes}
+    for path in scenes:
+        if not path.is_file():
+            raise UsageError(f"{path}: {'is a folder' if path.is_dir() else 'there is no such file'}.")
+    problems: dict[str, list[Problem]] = {}
+    for path in scenes:
+        try:
+            scene = Scene.load(path)
+            problems[str(path)] = examination.problems(scene)
+        except SceneError as error:
+            problems[str(path)] = error.problems
+        if not problems[str(path)]:
+            for text in examination.warnings(scene):
+                warning(f"{path}: {text}" if len(scenes) > 1 else text)
     count = sum(len(found) for found in problems.values())
     if json:
         emit_json(
             [
                 {
-                    "file": problem.file or path,
+                    "file": problem.file or name,
                     "line": problem.line,
                     "table": problem.table,
                     "key": problem.key,
@@ -55,15 +65,15 @@ def check(
                     "message": problem.message,
                     "hint": problem.hint,
                 }
-                for path, found in problems.items()
+                for name, found in problems.items()
                 for problem in found
             ]
         )
     else:
-        for path, found in problems.items():
+        for name, found in problems.items():
             for problem in found:
                 typer.echo(str(problem))
             if not found:
-                typer.echo(f"{path}: no mistakes")
+                typer.echo(f"{name}: no mistakes")
     if count:
         raise typer.Exit(1)

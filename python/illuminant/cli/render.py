@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 __all__ = ["render"]
 
+SHOWN = 3
+"""How many dropped samples are named one by one."""
+
 
 def render(
     scene: SceneFile,
@@ -177,10 +180,21 @@ def render(
             _print_path(job, pixel, sample, json)
         else:
             look = {"exposure": exposure, "rgb": rgb, "half": half, "bits": bits}
-            _render(job, paths, look, json)
+            _render(job, paths, look, _again(scene, options), json)
 
 
-def _render(job: Job, paths: list[Path], look: dict[str, Any], json: bool) -> None:
+def _again(scene: Path, options: dict[str, Any]) -> str:
+    """The command that follows a path of this render again, up to the pixel: all that changes random numbers."""
+    import shlex
+
+    names = ("technique", "illumination", "sampling", "size", "depth", "filter", "seed", "error")
+    given = [
+        part for name in names if options[name] is not None for part in (f"--{name}", str(options[name]))
+    ]
+    return shlex.join(["illuminant", "render", str(scene), *given])
+
+
+def _render(job: Job, paths: list[Path], look: dict[str, Any], again: str, json: bool) -> None:
     """Do the work, write the files, and say how it went."""
     from illuminant.cli.report import closing, emit_json, note, warning
     from illuminant.errors import Interrupted
@@ -196,13 +210,13 @@ def _render(job: Job, paths: list[Path], look: dict[str, Any], json: bool) -> No
     if image.statistics["most_samples"] == 0:
         raise Interrupted("no pixel holds a sample yet, so nothing was written.")
     saved = [_save(image, path, **look) for path in paths]
-    facts = _facts(job, image, saved)
+    facts = _facts(job, image, saved, again)
     if json:
         emit_json(facts)
     else:
         note(closing(facts))
         _say_exposure(saved, image)
-    _say_dropped(image)
+    _say_dropped(facts)
     if job.interrupted:
         raise Interrupted(f"{held(image)}; the image so far is written.")
 
@@ -289,7 +303,7 @@ def _work(job: Job) -> Image:
         return job.image()
 
 
-def _facts(job: Job, image: Image, saved: list[Saved]) -> dict[str, Any]:
+def _facts(job: Job, image: Image, saved: list[Saved], again: str) -> dict[str, Any]:
     """What the closing line and `--json` say."""
     found = image.statistics
     seconds = float(found["wall_seconds"])
@@ -306,7 +320,7 @@ def _facts(job: Job, image: Image, saved: list[Saved]) -> dict[str, Any]:
         "peak_memory": int(found["peak_memory"]),
         "spectral_error": job.spectral_error(),
         "dropped": int(found["dropped"]),
-        "dropped_samples": found.get("dropped_samples", []),
+        "dropped_samples": [{**item, "again": _follow(again, item)} for item in found["dropped_samples"]],
         "unit": image.unit,
         "exposure": shown.exposure if shown else None,
         "clamped": shown.clamped if shown else None,
@@ -322,7 +336,9 @@ def _say_exposure(saved: list[Saved], image: Image) -> None:
     shown = next((item for item in saved if item.exposure is not None), None)
     if shown is None:
         return
-    if shown.chosen and shown.exposure:
+    if not image.xyz.any():
+        note("The image is black.")
+    elif shown.chosen and shown.exposure:
         white = f"{0.8 / shown.exposure:.4g} {image.unit}"
         note(f"White, {white}, is shown as 0.8; --exposure {shown.exposure:g} repeats it.")
     if shown.clamped and shown.clamped >= 0.0005:
@@ -331,18 +347,26 @@ def _say_exposure(saved: list[Saved], image: Image) -> None:
         )
 
 
-def _say_dropped(image: Image) -> None:
+def _follow(again: str, item: dict[str, Any]) -> str:
+    """The command that follows a dropped sample again."""
+    x, y = item["pixel"]
+    return f"{again} --pixel {x},{y} --sample {item['sample']}"
+
+
+def _say_dropped(facts: dict[str, Any]) -> None:
     """Name the first dropped samples, and the command that follows one again."""
     from illuminant.cli.report import warning
 
-    dropped = image.statistics.get("dropped_samples") or []
-    for item in list(dropped)[:3]:
+    dropped = facts["dropped_samples"]
+    for item in dropped[:SHOWN]:
         x, y = item["pixel"]
-        where = f"object {item['object']}, material {item['material']}" if item.get("object") else "no object"
+        where = f"object {item['object']}, material {item['material']}" if item["object"] else "no object"
         warning(
-            f"Sample {item['sample']} of pixel {x},{y} was dropped ({where}): "
-            f"--pixel {x},{y} --sample {item['sample']} follows it again."
+            f"Sample {item['sample']} of pixel {x},{y} is no radiance and was dropped ({where}); "
+            f"to follow it again: {item['again']}"
         )
+    if facts["dropped"] > SHOWN:
+        warning(f"{facts['dropped']:,} samples were dropped in all; --json names the first {len(dropped)}.")
 
 
 def _print_path(job: Job, pixel: str, sample: int, json: bool) -> None:
