@@ -128,3 +128,31 @@ def test_debug_shows_the_traceback(tmp_path: Path, command: Command) -> None:
     assert done.returncode != 0 and "Traceback" in done.stderr
     done = command("render", tmp_path / "none.toml")
     assert done.returncode == 2 and "Traceback" not in done.stderr
+
+
+def test_what_only_the_core_finds_is_reported_with_its_line(
+    scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = scene.read_text().replace("target = [0.0, 0.6, 0.0]", "target = [0.0, 0.6, 9.0]")
+    scene.write_text(text.replace("samples = 8", 'samples = 8\nsampling = "uniform:99"'))
+    assert run(["check", str(scene)]) == 1
+    eye, sampling = capsys.readouterr().out.splitlines()
+    assert eye.startswith(f"{scene}:4: [camera] eye: the camera sees nothing from here towards target: ")
+    assert sampling.startswith(f"{scene}:10: [render] sampling: ")
+    assert run(["render", str(scene)]) == 2
+    assert capsys.readouterr().err.startswith(f"Error: {eye}\n")
+
+
+def test_warnings_are_shown_and_are_no_mistakes(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The core's (a lamp with lines) and the scene's own (an RGB colour that no smooth reflectance has)."""
+    text = scene.read_text().replace('spectrum = "A"', 'spectrum = "FL11"')
+    rgb = '{ rgb = [1.0, 0.0, 0.0], role = "albedo", system = "Rec.2020" }'
+    scene.write_text(text.replace("reflectance = 0.5", f"reflectance = {rgb}"))
+    assert run(["check", str(scene)]) == 0
+    shown = capsys.readouterr()
+    assert shown.out == f"{scene}: no mistakes\n"
+    own, lamp = shown.err.splitlines()
+    assert own.startswith("Warning: ") and "materials.grey" in own and "ΔE00" in own
+    assert lamp.startswith('Warning: lamp "lamp" has a spectrum too fine for uniform:32')
+    assert run(["render", str(scene), "--samples", "1", "-o", str(scene.with_suffix(".png"))]) == 0
+    assert capsys.readouterr().err.splitlines()[:2] == [own, lamp]

@@ -50,6 +50,16 @@ def test_help_loads_no_large_package(arguments: list[str]) -> None:
     assert not loaded & ({*LARGE, "illuminant._core", "illuminant.spectra"} - {"pydantic"})
 
 
+def test_rendering_plain_meshes_imports_nothing_slow(scenes: Path, tmp_path: Path) -> None:
+    """A second `make demo` begins within 2 s: SciPy and trimesh alone would take longer."""
+    words = ["render", str(scenes / "demo.toml"), "--samples", "1", "--size", "16x9"]
+    loaded = modules_after(
+        f"from illuminant.cli import run; run({[*words, '-o', str(tmp_path / 'a.png')]!r})"
+    )
+    assert "numpy" in loaded and (tmp_path / "a.png").exists()
+    assert not loaded & {"trimesh", "scipy", "OpenImageIO", "rich", "matplotlib", "flip_evaluator", "embreex"}
+
+
 def test_every_lazy_name_is_there_and_stays_what_it_is() -> None:
     import illuminant
 

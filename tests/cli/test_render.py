@@ -82,6 +82,58 @@ def test_layers_lamps_and_lanes_are_channels(scene: Path, inside: Command) -> No
     assert hit == pytest.approx(1.0, abs=0.05)
 
 
+def test_the_exposure_of_the_scene_is_used_unless_an_option_gives_another(
+    scene: Path, inside: Command
+) -> None:
+    scene.write_text(scene.read_text().replace("[render]", "[render]\nexposure = 0.004"))
+    path = scene.with_suffix(".png")
+    done = inside("render", scene, "-o", path, "--json")
+    assert json.loads(done.stdout)["exposure"] == 0.004
+    assert "repeats it" not in inside("render", scene, "-o", path).stderr
+    assert (
+        json.loads(inside("render", scene, "-o", path, "--exposure", 0.01, "--json").stdout)["exposure"]
+        == 0.01
+    )
+
+
+def test_the_same_command_writes_the_same_bytes(scene: Path, inside: Command) -> None:
+    def written(*options: object) -> list[bytes]:
+        paths = [scene.with_name(name) for name in ("a.exr", "a.png")]
+        done = inside("render", scene, "-o", paths[0], "-o", paths[1], "--layers", "depth,samples", *options)
+        assert done.returncode == 0, done.stderr
+        return [path.read_bytes() for path in paths]
+
+    first = written()
+    assert written() == first
+    assert written("--threads", 1) == first
+    assert written("--threads", 2) == first
+    assert all(a != b for a, b in zip(written("--seed", 1), first, strict=True))
+
+
+def test_dropped_samples_come_with_the_command_that_follows_them(scene: Path, inside: Command) -> None:
+    text = scene.read_text().replace("luminance_cd_m2 = 2000.0", "radiance_scale = 1e38")
+    scene.write_text(text.replace('spectrum = "A"', "spectrum = 1.0"))
+    words = ("--samples", 2, "--seed", 3, "--size", "16x12", "--depth", 2)
+    done = inside("render", scene.name, "-o", "a.png", *words, "--json", cwd=scene.parent)
+    assert done.returncode == 0
+    facts = json.loads(done.stdout)
+    item = facts["dropped_samples"][0]
+    (x, y), k = item["pixel"], item["sample"]
+    assert item["object"] in ("ball", "floor", "lamp") and item["material"] in ("grey", "lamp")
+    again = f"illuminant render ball.toml --size 16x12 --depth 2 --seed 3 --pixel {x},{y} --sample {k}"
+    assert item["again"] == again
+    lines = [line for line in done.stderr.splitlines() if line.startswith("Warning: Sample")]
+    assert len(lines) == min(3, facts["dropped"])
+    assert lines[0] == (
+        f"Warning: Sample {k} of pixel {x},{y} is no radiance and was dropped "
+        f"(object {item['object']}, material {item['material']}); to follow it again: {again}"
+    )
+    assert f"Warning: {facts['dropped']:,} samples were dropped in all" in done.stderr
+    followed = inside(*again.split()[1:], cwd=scene.parent)
+    assert followed.returncode == 0
+    assert followed.stdout.splitlines()[-1].startswith("XYZ  (") and "inf" in followed.stdout
+
+
 def test_layers_in_a_png_are_warned_of(scene: Path, inside: Command) -> None:
     done = inside("render", scene, "-o", scene.with_suffix(".png"), "--layers", "depth", "--samples", 1)
     assert "Warning: A PNG holds no layers: add -o FILE.exr to keep them.\n" in done.stderr
