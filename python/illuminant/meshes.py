@@ -1,9 +1,9 @@
 """Meshes from files: OBJ, PLY, STL, GLB and glTF, also compressed by gzip (`.ply.gz`).
 
 Plain PLY files are read by `ply`, all others by trimesh (it is imported only for them, which takes seconds). Neither
-checks anything, so all is checked here: a mesh that comes back has faces, finite vertices, vertex numbers in range and no face without area.
-All geometries of a file become one mesh, each under its transform in the file. Vertex normals and texture
-coordinates are kept where every part has them; materials, colours and textures of the file are not read.
+checks anything, so all is checked here: a mesh that comes back has faces, finite vertices, vertex numbers in range and
+no face without area. All geometries of a file become one mesh, each under its transform in the file. Vertex normals
+and texture coordinates are kept where every part has them; materials, colours and textures of the file are not read.
 
 A GLB or glTF file is in metres with y up, by its standard. The other formats do not say: their unit is the scene's
 `length_unit` and their up axis the scene's `up`, unless the scene file states `unit` or `up` for the mesh.

@@ -63,9 +63,9 @@ def planes(camera: Mapping[str, Any]) -> np.ndarray:
     right = np.cross(forward, up)
     right /= np.linalg.norm(right)
     upright = np.cross(right, forward)
-    width, height = camera["size"]
+    width, height = (float(side) for side in camera["size"])
     left, top, end, bottom = camera.get("crop") or [0, 0, width, height]
-    half = math.tan(math.radians(camera["field_of_view_deg"]) / 2)
+    half: float = math.tan(math.radians(camera["field_of_view_deg"]) / 2)
 
     def across(column: float) -> float:
         return half * (2 * column / width - 1)

@@ -111,9 +111,3 @@ def test_words_of_render_that_the_core_does_not_know_are_mistakes(tmp_path):
         ("render", "sampling"),
     ]
     assert [problem.key for problem in examination.problems(scene, words=["sampling"])] == ["sampling"]
-
-
-def test_a_plain_render_needs_no_second_core_scene():
-    """The words are tried one by one only when the file gives some; that costs a scene of its own."""
-    assert examination._unknown_words(seen_by({}, **BALL), examination.WORDS) == []
-    assert ()
