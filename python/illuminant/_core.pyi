@@ -1,0 +1,145 @@
+"""The compiled core: what crates/python offers. Descriptions cross as JSON, numbers as NumPy arrays.
+
+Bad input is a ValueError with one sentence, trouble with the machine a RuntimeError. Long calls let go of the
+interpreter. Users find all of this under friendlier names in the modules of the package.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any, TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+class TomlError(ValueError):
+    """Text that is no TOML; `args` are the message, the line and the column, both from 1."""
+
+class _RgbSystem(TypedDict):
+    name: str
+    primaries: list[list[float]]
+    white: list[float]
+    transfer: str
+    to_xyz: list[list[float]]
+    from_xyz: list[list[float]]
+
+def parse_toml(text: str) -> tuple[dict[str, Any], dict[tuple[str | int, ...], int]]:
+    """The data of a TOML text, and the line (from 1) of every key path in it."""
+
+def load_embree(path: str) -> str:
+    """Loads Embree 4.4 or a later 4.x from a file, once, and returns its version."""
+
+def planck(wavelengths_nm: NDArray[np.float64], temperature_k: float) -> NDArray[np.float64]:
+    """Spectral radiance of a blackbody, W·sr⁻¹·m⁻²·nm⁻¹ (Planck 1900)."""
+
+def daylight(wavelengths_nm: NDArray[np.float64], cct_k: float) -> NDArray[np.float64]:
+    """Relative power of CIE daylight, 1 at 560 nm, for a colour temperature of 4,000–25,000 K (CIE 15:2018)."""
+
+def xyz(
+    wavelengths_nm: Sequence[float] | NDArray[np.float64],
+    values: Sequence[float] | NDArray[np.float64],
+    outside: str,
+    range: Sequence[int] = ...,
+) -> NDArray[np.float64]:
+    """683 lm/W times the 1 nm sums of a curve with the CIE 1931 2° functions; `outside` is 'zero' or 'hold'."""
+
+def rgb_systems() -> list[str]:
+    """The names of the RGB systems."""
+
+def rgb_system(name: str) -> _RgbSystem:
+    """Primaries, white, transfer and matrices of an RGB system."""
+
+def xyz_to_lab(xyz: NDArray[np.float64], white: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]:
+    """CIE 1976 L*a*b* of XYZ beside a white in the same unit; any shape (..., 3)."""
+
+def delta_e_2000(lab_a: NDArray[np.float64], lab_b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """CIEDE2000 between two arrays of L*a*b* of one shape (..., 3)."""
+
+def upsample_albedo(
+    rgb: Sequence[float], system: str, range: Sequence[int] = ...
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """Wavelengths and values of a smooth reflectance of colour `rgb` in [0, 1], and the ΔE00 of its round trip."""
+
+def upsample_emission(
+    rgb: Sequence[float], system: str, range: Sequence[int] = ...
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """Wavelengths and values of an emission of colour `rgb`; RGB (1, 1, 1) is the system's white with Y = 1."""
+
+def develop(
+    xyz: NDArray[np.float64], system: str, exposure: float, bits: int
+) -> tuple[NDArray[np.uint8] | NDArray[np.uint16], float]:
+    """Code values (h, w, 3) of an XYZ image, and the fraction of pixels outside the gamut, which are clamped."""
+
+def encode_png(
+    pixels: NDArray[np.uint8] | NDArray[np.uint16],
+    *,
+    chromaticities: Sequence[float] | None = None,
+    gamma: float | None = None,
+    cicp: Sequence[int] | None = None,
+    srgb: bool = False,
+    text: Sequence[tuple[str, str]] = ...,
+) -> bytes:
+    """A PNG with exactly the chunks asked for; `chromaticities` are x, y of white, red, green and blue."""
+
+class Geometry:
+    """The ray structure: shapes and where they stand."""
+
+    def __init__(
+        self,
+        shapes: Sequence[dict[str, Any]],
+        placements: Sequence[tuple[int, NDArray[np.float64]]],
+        threads: int = 0,
+    ) -> None:
+        """Builds it. A shape is {"kind": "mesh", "positions", "indices", "normals", "uvs"} or {"kind": "sphere",
+        "center", "radius"}; a placement is the number of a shape and its transforms (keys, 3, 4) to the world."""
+    @property
+    def bounds(self) -> tuple[list[float], list[float]]:
+        """Two corners of the box around everything."""
+    @property
+    def triangles(self) -> int:
+        """Triangles placed, instances counted each time."""
+
+class Scene:
+    """A scene ready for rendering."""
+
+    def __init__(self, geometry: Geometry, description: str, images: dict[str, NDArray[np.float32]]) -> None:
+        """A scene from geometry, a description (JSON) and images (h, w, 3) of linear RGB."""
+    @property
+    def lamps(self) -> list[str]:
+        """The names of the lamps."""
+    def viewing_distance(self, picture_width: float) -> float:
+        """From how far a picture of this width shows what the camera saw."""
+    def project(self, point: Sequence[float]) -> list[float] | None:
+        """Where a point of the world appears, in pixels; None behind the eye."""
+    def spectral_error(self, sampling: str) -> dict[str, Any]:
+        """ΔE00 of a spectral sampling against 1 nm: mean, p95, max, and the lamp and material of the largest."""
+    def warnings(self, settings: str) -> list[str]:
+        """Sentences on what to know before rendering with these settings (JSON)."""
+    def sees_anything(self) -> bool:
+        """Whether any object or surroundings lie in the camera's view."""
+
+class Render:
+    """A render under way: runs follow each other, and the film accumulates."""
+
+    def __init__(self, scene: Scene, settings: str) -> None:
+        """A render of a scene with settings (JSON), and an empty film."""
+    def run(self, first: int, last: int, progress: Callable[[float], object] | None = None) -> bool:
+        """Renders samples first..last of every pixel; False when `progress` returned False and so cancelled it."""
+    def layers(self) -> list[str]:
+        """The names of the layers."""
+    def layer(self, name: str) -> NDArray[np.float64]:
+        """The mean of a layer, (h, w, channels)."""
+    def samples(self) -> NDArray[np.uint32]:
+        """Samples that each pixel holds, (h, w)."""
+    def standard_error(self) -> NDArray[np.float64]:
+        """Standard error of Y from two halves, (h, w); needs replicates = 2."""
+    def statistics(self) -> dict[str, Any]:
+        """Seconds, samples, rays, dropped samples."""
+    def wavelengths(self) -> NDArray[np.float64]:
+        """The wavelength that stands for each spectral sample, nm."""
+    def to_xyz(self, lamp: int = 0) -> NDArray[np.float64]:
+        """The map from spectral samples to XYZ for light of a lamp, (3, N)."""
+    def replay(self, x: int, y: int, sample: int) -> dict[str, Any]:
+        """The vertices of one path, pass by pass, and what it brought."""
+    def ray_rate(self, first: int, last: int) -> dict[str, float]:
+        """The queries of these samples again, without shading: their number and the seconds they take."""
