@@ -102,8 +102,8 @@ pub struct Hit {
 pub struct SurfacePoint {
     /// Position in the world.
     pub position: Vec3,
-    /// A bound of its rounding error along each axis, and of that of a ray query that starts there.
-    pub error: Vec3,
+    /// A bound of its rounding error along the normal, and of that of a ray query that starts there.
+    pub error: f32,
     /// Unit geometric normal, to the outside.
     pub geometric_normal: Vec3,
     /// Unit normal for shading, on the same side.
@@ -118,20 +118,9 @@ impl SurfacePoint {
     #[inline(always)]
     #[must_use]
     pub fn offset(&self, direction: Vec3) -> Vec3 {
-        let n = self.geometric_normal;
-        let d = n.abs().dot(self.error);
-        let side = d.copysign(n.dot(direction));
-        let p = self.position + n * side;
-        // Round away from the surface, so that the displacement is not lost.
-        let step = n * side;
-        let away = |p: f32, s: f32| match (s == 0.0, p == 0.0) {
-            (true, _) => p,
-            (_, true) => f32::from_bits(1).copysign(s),
-            // The next number farther from zero, or nearer to it.
-            _ if (s > 0.0) == (p > 0.0) => f32::from_bits(p.to_bits() + 1),
-            _ => f32::from_bits(p.to_bits() - 1),
-        };
-        Vec3::new(away(p.x, step.x), away(p.y, step.y), away(p.z, step.z))
+        // The bound is many times the rounding of the sum, so the displacement is never lost in it.
+        let side = self.error.copysign(self.geometric_normal.dot(direction));
+        self.position + self.geometric_normal * side
     }
 }
 
@@ -687,7 +676,7 @@ fn mesh_point(mesh: &Mesh, reach: f32, hit: &Hit) -> SurfacePoint {
     let geometric_normal = hit.normal.normalize();
     // The position errs with the size of its terms; a query from there errs with the distances to the corners, along
     // every axis, also along one on which all corners have the coordinate 0.
-    let error = Vec3::splat(reach * gamma(8));
+    let error = reach * gamma(12);
     let normal = mesh.normals.as_ref().map_or(geometric_normal, |normals| {
         let [na, nb, nc] = corners.map(|i| normals[i]);
         let n = (na * u + nb * v + nc * w).normalize_or(geometric_normal);
@@ -703,7 +692,7 @@ fn mesh_point(mesh: &Mesh, reach: f32, hit: &Hit) -> SurfacePoint {
 fn sphere_point(center: Vec3, radius: f32, near: Vec3) -> SurfacePoint {
     let normal = (near - center).normalize_or(Vec3::Z);
     let position = center + normal * radius;
-    let error = Vec3::splat((center.abs().max_element() + radius) * gamma(16));
+    let error = (center.abs().max_element() + radius) * gamma(24);
     let uv = Vec2::new(
         (normal.y.atan2(normal.x) * std::f32::consts::FRAC_1_PI * 0.5).rem_euclid(1.0),
         normal.z.clamp(-1.0, 1.0).acos() * std::f32::consts::FRAC_1_PI,
@@ -715,10 +704,10 @@ fn instance_point(local: &SurfacePoint, to_world: &Affine3A) -> SurfacePoint {
     let m = glam::Mat3::from(to_world.matrix3);
     let normals = m.inverse().transpose();
     let position = to_world.transform_point3(local.position);
-    let size = glam::Mat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
-    let error = size * local.error
-        + (size * local.position.abs() + Vec3::from(to_world.translation).abs()) * gamma(16)
-        + position.abs() * gamma(8);
+    // The transform magnifies the error in its own space and adds roundings of its terms.
+    let magnified = m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length());
+    let terms = magnified * local.position.abs().max_element() + to_world.translation.abs().max_element();
+    let error = magnified * 1.8 * local.error + terms * gamma(32);
     SurfacePoint {
         position,
         error,

@@ -118,12 +118,13 @@ impl Sequence {
     /// The next four numbers in [0, 1), well spread together over the samples of a pixel.
     #[inline(always)]
     pub fn next4(&mut self) -> [f32; 4] {
-        let (a, b) = (mix(self.seed, 2 * self.set), mix(self.seed, 2 * self.set + 1));
+        let hash = mix(self.seed, self.set);
         self.set += 1;
-        let index = scramble(self.reversed_index, (a ^ b.rotate_left(17)) as u32);
+        let (a, b) = (hash as u32, (hash >> 32) as u32);
+        let index = scramble(self.reversed_index, a ^ b.rotate_left(13));
         let low = &SOBOL[0][(index >> 24) as usize];
         let high = &SOBOL[1][(index >> 16 & 0xff) as usize];
-        let seeds = [a as u32, (a >> 32) as u32, b as u32, (b >> 32) as u32];
+        let seeds = [a, b, a.wrapping_mul(0x9E37_79B1) ^ b, b.wrapping_mul(0x85EB_CA77) ^ a];
         let scrambled: [u32; 4] =
             std::array::from_fn(|d| scramble(low[d] ^ high[d], seeds[d]).reverse_bits());
         scrambled.map(|x| (x >> 8) as f32 * (1.0 / 16_777_216.0))
