@@ -205,10 +205,13 @@ def _report(name: str, contenders: list[Contender], options: argparse.Namespace)
 def _print_ratios(own: Contender, peer: Contender) -> None:
     rate = peer.median_seconds / own.median_seconds
     value = efficiency(own.error, own.median_seconds) / efficiency(peer.error, peer.median_seconds)
+    # Processor seconds tell more where other work shares the machine.
+    work = statistics.median(peer.processor_seconds) / statistics.median(own.processor_seconds)
     x, y, z = (own.reference.mean(axis=(0, 1)) / peer.reference.mean(axis=(0, 1)) - 1.0) * 100.0
     block = largest_block_difference(own.reference, peer.reference) * 100.0
     print(
-        f"{own.name} to {peer.name}: samples per second x {rate:.2f}, efficiency x {value:.2f}; "
+        f"{own.name} to {peer.name}: samples per second x {rate:.2f}, efficiency x {value:.2f} "
+        f"(by processor time x {work:.2f}, x {work * peer.error / own.error:.2f}); "
         f"mean X {x:+.2f} %, Y {y:+.2f} %, Z {z:+.2f} %; largest block {block:.2f} %"
     )
 
