@@ -42,6 +42,9 @@ __all__ = ["LARGEST_HALF", "REC709", "XYZ", "Contents", "fits_half", "read", "wr
 LARGEST_HALF = 65504.0
 """The largest finite half float."""
 
+MAGIC = b"\x76\x2f\x31\x01"
+"""The first four bytes of every EXR file."""
+
 XYZ = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1 / 3, 1 / 3)
 """`chromaticities` of CIE XYZ: x and y of red, green, blue and white."""
 
@@ -188,6 +191,17 @@ def _probe(path: Path) -> None:
         file.write(bytes(65536))
 
 
+def _check_magic(path: str | Path) -> None:
+    """Refuse what is no EXR at all in plainer words than the library's."""
+    try:
+        with open(path, "rb") as file:
+            magic = file.read(4)
+    except OSError as error:
+        raise ImageError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
+    if magic != MAGIC:
+        raise ImageError(f"{path} cannot be read: it does not begin as an EXR file does.")
+
+
 def read(path: str | Path) -> Contents:
     """Read an EXR file, written here or elsewhere.
 
@@ -203,6 +217,7 @@ def read(path: str | Path) -> Contents:
     import numpy as np
     import OpenImageIO as oiio
 
+    _check_magic(path)
     file = oiio.ImageInput.open(str(path))
     if file is None:
         reason = " ".join((oiio.geterror() or "not a readable image").split()).rstrip(".")

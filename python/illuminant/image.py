@@ -273,6 +273,8 @@ class Image:
             (540, 960, 3)
         """
         path = Path(path)
+        if path.is_dir():
+            raise ImageError(f"{path} cannot be read: it is a folder.")
         if not path.is_file():
             raise ImageError(f"{path} cannot be read: there is no such file.")
         if path.suffix.lower() == ".png":

@@ -93,6 +93,8 @@ def image_facts(path: Path) -> dict[str, Any]:
     Raises:
         ImageError: it cannot be read.
     """
+    if path.is_dir():
+        raise ImageError(f"{path} cannot be read: it is a folder.")
     if not path.is_file():
         raise ImageError(f"{path} cannot be read: there is no such file.")
     if path.suffix.lower() == ".png":

@@ -39,6 +39,20 @@ def _group(name: str) -> int | None:
     return int(text) if text.isdigit() else None
 
 
+def _address_space() -> int | None:
+    """Bytes that this process may still ask for under its own limit (`ulimit -v`); None where there is none."""
+    import resource
+
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    if limit == resource.RLIM_INFINITY:
+        return None
+    try:
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    except OSError:
+        return limit
+    return max(0, limit - pages * resource.getpagesize())
+
+
 def memory() -> int | None:
     """Bytes of memory that the system, or the container, has in all; None where that cannot be known."""
     known = [amount for amount in (_meminfo("MemTotal"), _group("memory.max")) if amount is not None]
@@ -47,7 +61,7 @@ def memory() -> int | None:
 
 def memory_available() -> int | None:
     """Bytes of memory that can still be had without swapping; None where that cannot be known."""
-    known = [amount for amount in [_meminfo("MemAvailable")] if amount is not None]
+    known = [amount for amount in (_meminfo("MemAvailable"), _address_space()) if amount is not None]
     limit, used = _group("memory.max"), _group("memory.current")
     if limit is not None and used is not None:
         known.append(max(0, limit - used))

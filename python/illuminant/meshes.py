@@ -78,11 +78,10 @@ def read(path: str | os.PathLike[str], zero_area: str = "error") -> Mesh:
         raise DataError(error.message, str(path)) from None
     except MemoryError:
         raise DataError("is too large for the memory of this machine", str(path)) from None
-    except IndexError as error:
-        raise DataError(
-            f"a face refers to a vertex that the file does not hold ({_clause(error)})", str(path)
-        ) from None
     except Exception as error:  # whatever a damaged file makes of the reader
+        if kind == "obj" and isinstance(error, IndexError):
+            text = f"a face refers to a vertex that the file does not hold ({_clause(error)})"
+            raise DataError(text, str(path)) from None
         raise DataError(f"cannot be read as {kind.upper()} ({_clause(error)})", str(path)) from None
     try:
         return mesh.checked(zero_area)

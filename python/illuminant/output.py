@@ -38,7 +38,10 @@ def _reason(error: OSError) -> str:
 def failure(path: Path, error: OSError) -> Error:
     """The error to raise for an operating-system error met while writing `path`."""
     kind = MachineError if error.errno in _MACHINE else ImageError
-    return kind(f"{path} cannot be written: {_reason(error)}.")
+    name = str(path)
+    if len(name) > 300:
+        name = f"{name[:40]}...{name[-40:]}"
+    return kind(f"{name} cannot be written: {_reason(error)}.")
 
 
 def check(path: str | os.PathLike[str]) -> Path:
@@ -55,16 +58,22 @@ def check(path: str | os.PathLike[str]) -> Path:
         MachineError: the disk has no room for even an empty file.
     """
     path = Path(path)
+    try:
+        return _checked(path)
+    except OSError as error:
+        if isinstance(error, Error):
+            raise
+        raise failure(path, error) from error
+
+
+def _checked(path: Path) -> Path:
     if path.is_dir():
         raise ImageError(f"{path} cannot be written: it is a folder, so name a file in it.")
     if path.exists() and not path.is_file():
         raise ImageError(f"{path} cannot be written: it is not an ordinary file.")
     if not path.parent.is_dir():
         raise ImageError(f"{path} cannot be written: there is no folder {path.parent}.")
-    try:
-        _remove(_temporary(path))
-    except OSError as error:
-        raise failure(path, error) from error
+    _remove(_temporary(path))
     return path
 
 

@@ -187,9 +187,19 @@ class Job:
         except ValueError as error:
             # A word that the core does not know is a mistake of the scene, unless an option gave it.
             refuse(self.scene, words=[word for word in WORDS if options.get(word) is None])
-            raise UsageError(_sentence(error)) from error
+            raise UsageError(self._blame(options) + _sentence(error)) from error
         except MemoryError as error:
             raise MachineError("There is not enough memory for this scene and image.") from error
+
+    def _blame(self, options: dict[str, Any]) -> str:
+        """The option that the core refuses, as the beginning of a sentence."""
+        for word in WORDS:
+            if options.get(word) is not None:
+                try:
+                    core().Render(self.core_scene, resolve({word: options[word]}).to_core())
+                except ValueError:
+                    return f"--{word} {options[word]}: "
+        return ""
 
     def warnings(self) -> list[str]:
         """Sentences on what in these settings does not suit this scene."""
@@ -534,7 +544,7 @@ def held(image: Image) -> str:
     least, most = int(image.statistics["least_samples"]), int(image.statistics["most_samples"])
     mean = float(image.statistics["samples_per_pixel"])
     if least == most:
-        return f"every pixel holds {least} samples"
+        return f"every pixel holds {least} sample{'' if least == 1 else 's'}"
     if least == 0:
         return f"some pixels hold no sample yet and are black, {mean:.1f} on average"
     return f"every pixel holds {least} samples or more, {mean:.1f} on average"
@@ -572,5 +582,5 @@ def replay_job(job: Job, pixel: tuple[int, int], sample: int) -> dict[str, Any]:
             f"--pixel {x},{y}: the pixels of this image run from {left},{top} to {right - 1},{bottom - 1}."
         )
     if not 0 <= sample <= MOST_SAMPLES:
-        raise UsageError(f"--sample {sample}: expected a whole number from 0.")
+        raise UsageError(f"--sample {sample}: expected a whole number from 0 to {MOST_SAMPLES}.")
     return dict(job.core_render.replay(x, y, sample))

@@ -189,7 +189,8 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
         if isinstance(raw, dict) and raw.get("kind") == "emitter"
     ]
     used = [raw.get("material") for raw in tables["objects"].values() if isinstance(raw, dict)]
-    if not lights and not any(name in used for name in emitters):
+    tabled = all(isinstance(data.get(key, {}), dict) for key in ("materials", "objects", "lights"))
+    if tabled and not lights and not any(name in used for name in emitters):
         report.add((), NO_LIGHT, kind="no-light")
     report.raise_if_any()
 

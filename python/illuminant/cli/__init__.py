@@ -9,6 +9,8 @@ Only Typer is imported here: NumPy, the core and everything else wait until a ve
 
 from __future__ import annotations
 
+import os
+import re
 import sys
 from collections.abc import Sequence
 from typing import Annotated, Any, NoReturn
@@ -19,6 +21,13 @@ from illuminant.cli import check, diff, info, new, render, spectra
 from illuminant.cli.report import sentence
 
 __all__ = ["app", "main", "run"]
+
+# Typer's words for an option that cannot be read, and ours.
+_PLAINER = (
+    (r"^Invalid value for '(-[^']+)': Input should be a valid integer\b.*", r"\1: expected a whole number"),
+    (r"^Invalid value for '(-[^']+)': Input should be a valid number\b.*", r"\1: expected a number"),
+    (r"^Got unexpected extra argument(?:s|\(s\))? \((.*)\)", r"One argument is enough, and \1 is more"),
+)
 
 app = typer.Typer(
     name="illuminant",
@@ -103,11 +112,26 @@ def run(arguments: Sequence[str], prog_name: str = "illuminant") -> int:
     except Exception as error:
         if debug:
             raise
+        if isinstance(error, OSError) and error.errno is not None:
+            return _refused(error)
         return _foreign(error, prog_name)
     except BaseException as error:  # a panic of the core is no Exception
         if debug or isinstance(error, (SystemExit, GeneratorExit)):
             raise
         return _unexpected(error)
+
+
+def _refused(error: OSError) -> int:
+    """Report what the operating system refused: a path that cannot be, or an output that takes no more."""
+    import errno
+
+    if error.errno == errno.EPIPE:  # whoever read the output has had enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 3
+    reason = (error.strerror or str(error)).lower()
+    name = str(error.filename or "The output cannot be written")
+    sentence("Error", f"{name if len(name) <= 80 else name[:77] + '...'}: {reason}.")
+    return 2 if error.filename else 3
 
 
 def _foreign(error: Exception, prog_name: str) -> int:
@@ -118,6 +142,8 @@ def _foreign(error: Exception, prog_name: str) -> int:
     context = getattr(error, "ctx", None)
     path = getattr(context, "command_path", prog_name) or prog_name
     text = " ".join(str(message()).split()).rstrip(".")
+    for pattern, plain in _PLAINER:
+        text = re.sub(pattern, plain, text)
     sentence("Error", f"{text} (see `{path} --help`).")
     return 2
 

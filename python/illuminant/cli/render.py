@@ -134,9 +134,9 @@ def render(
         ),
     ] = None,
     sample: Annotated[
-        int,
+        int | None,
         typer.Option("--sample", metavar="K", help="Which path of that pixel (0).", show_default=False),
-    ] = 0,
+    ] = None,
     json: Json = False,
 ) -> None:
     """Render a scene to an image.
@@ -149,9 +149,14 @@ def render(
       illuminant render room.toml -o room.png
       illuminant render room.toml -o room.exr -o room.png --time 30s
     """
+    from illuminant.errors import UsageError
     from illuminant.image import check_output
 
-    paths = output or [Path(scene.stem + ".png")]
+    if scene.is_dir():
+        raise UsageError(f"{scene} is a folder: name a scene file.")
+    if pixel is None and sample is not None:
+        raise UsageError(f"--sample {sample}: goes with --pixel, whose path it names.")
+    paths = list(dict.fromkeys(output or [Path(scene.stem + ".png")]))
     if pixel is None:
         for path in paths:
             check_output(path)
@@ -177,7 +182,7 @@ def render(
 
         job = stop.watch(Job(scene, **options))
         if pixel is not None:
-            _print_path(job, pixel, sample, json)
+            _print_path(job, pixel, sample or 0, json)
         else:
             look = {"exposure": exposure, "rgb": rgb, "half": half, "bits": bits}
             _render(job, paths, look, _again(scene, options), json)
@@ -207,17 +212,18 @@ def _render(job: Job, paths: list[Path], look: dict[str, Any], again: str, json:
     if layers and not any(path.suffix.lower() == ".exr" for path in paths):
         warning("A PNG holds no layers: add -o FILE.exr to keep them.")
     image = _work(job)
+    interrupted = job.interrupted  # a request that comes later finds the work done
     if image.statistics["most_samples"] == 0:
         raise Interrupted("no pixel holds a sample yet, so nothing was written.")
     saved = [_save(image, path, **look) for path in paths]
-    facts = _facts(job, image, saved, again)
+    facts = _facts(job, image, saved, again) | {"complete": not interrupted}
     if json:
         emit_json(facts)
     else:
         note(closing(facts))
         _say_exposure(saved, image)
     _say_dropped(facts)
-    if job.interrupted:
+    if interrupted:
         raise Interrupted(f"{held(image)}; the image so far is written.")
 
 
@@ -311,7 +317,6 @@ def _facts(job: Job, image: Image, saved: list[Saved], again: str) -> dict[str, 
     shown = next((item for item in saved if item.exposure is not None), None)
     return {
         "files": [item.path for item in saved],
-        "complete": not (job.interrupted or job.stopped),
         "seconds": seconds,
         "samples": int(samples),
         "samples_per_pixel": found["samples_per_pixel"],
