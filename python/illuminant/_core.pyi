@@ -39,7 +39,7 @@ def xyz(
     wavelengths_nm: Sequence[float] | NDArray[np.float64],
     values: Sequence[float] | NDArray[np.float64],
     outside: str,
-    range: Sequence[int] = ...,
+    range_nm: Sequence[int] = ...,
 ) -> NDArray[np.float64]:
     """683 lm/W times the 1 nm sums of a curve with the CIE 1931 2° functions; `outside` is 'zero' or 'hold'."""
 
@@ -56,12 +56,12 @@ def delta_e_2000(lab_a: NDArray[np.float64], lab_b: NDArray[np.float64]) -> NDAr
     """CIEDE2000 between two arrays of L*a*b* of one shape (..., 3)."""
 
 def upsample_albedo(
-    rgb: Sequence[float], system: str, range: Sequence[int] = ...
+    rgb: Sequence[float], system: str, range_nm: Sequence[int] = ...
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """Wavelengths and values of a smooth reflectance of colour `rgb` in [0, 1], and the ΔE00 of its round trip."""
 
 def upsample_emission(
-    rgb: Sequence[float], system: str, range: Sequence[int] = ...
+    rgb: Sequence[float], system: str, range_nm: Sequence[int] = ...
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """Wavelengths and values of an emission of colour `rgb`; RGB (1, 1, 1) is the system's white with Y = 1."""
 

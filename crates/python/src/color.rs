@@ -64,14 +64,14 @@ fn arrays<'py>(py: Python<'py>, (curve, error): (Curve, f64)) -> Upsampled<'py> 
 }
 
 #[pyfunction]
-#[pyo3(signature = (rgb, system, range=[380, 780]))]
+#[pyo3(signature = (rgb, system, range_nm=[380, 780]))]
 fn upsample_albedo<'py>(
     py: Python<'py>,
     rgb: [f64; 3],
     system: &str,
-    range: [u32; 2],
+    range_nm: [u32; 2],
 ) -> PyResult<Upsampled<'py>> {
-    let upsampler = Upsampler::new(&self::system(system)?, SpectralRange::from(range));
+    let upsampler = Upsampler::new(&self::system(system)?, SpectralRange::from(range_nm));
     let found = upsampler.albedo(rgb).ok_or_else(|| {
         PyValueError::new_err(format!("an albedo's RGB must lie in [0, 1], and {rgb:?} does not"))
     })?;
@@ -79,14 +79,14 @@ fn upsample_albedo<'py>(
 }
 
 #[pyfunction]
-#[pyo3(signature = (rgb, system, range=[380, 780]))]
+#[pyo3(signature = (rgb, system, range_nm=[380, 780]))]
 fn upsample_emission<'py>(
     py: Python<'py>,
     rgb: [f64; 3],
     system: &str,
-    range: [u32; 2],
+    range_nm: [u32; 2],
 ) -> PyResult<Upsampled<'py>> {
-    let upsampler = Upsampler::new(&self::system(system)?, SpectralRange::from(range));
+    let upsampler = Upsampler::new(&self::system(system)?, SpectralRange::from(range_nm));
     let found = upsampler
         .emission(rgb)
         .ok_or_else(|| PyValueError::new_err(format!("an emission's RGB must not be negative: {rgb:?}")))?;

@@ -42,16 +42,16 @@ fn daylight<'py>(
 }
 
 #[pyfunction]
-#[pyo3(signature = (wavelengths_nm, values, outside, range=[380, 780]))]
+#[pyo3(signature = (wavelengths_nm, values, outside, range_nm=[380, 780]))]
 fn xyz<'py>(
     py: Python<'py>,
     wavelengths_nm: Vec<f64>,
     values: Vec<f64>,
     outside: &str,
-    range: [u32; 2],
+    range_nm: [u32; 2],
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let curve = curve(wavelengths_nm, values, outside)?;
-    let xyz = Observer::cie_1931_2deg().xyz(&curve, SpectralRange::from(range));
+    let xyz = Observer::cie_1931_2deg().xyz(&curve, SpectralRange::from(range_nm));
     Ok(PyArray1::from_slice(py, &xyz))
 }
 
