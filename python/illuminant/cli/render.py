@@ -213,7 +213,7 @@ def _render(job: Job, paths: list[Path], look: dict[str, Any], again: str, json:
         warning("A PNG holds no layers: add -o FILE.exr to keep them.")
     image = _work(job)
     interrupted = job.interrupted  # a request that comes later finds the work done
-    if image.statistics["most_samples"] == 0:
+    if interrupted and image.statistics["most_samples"] == 0:
         raise Interrupted("no pixel holds a sample yet, so nothing was written.")
     saved = [_save(image, path, **look) for path in paths]
     facts = _facts(job, image, saved, again) | {"complete": not interrupted}
