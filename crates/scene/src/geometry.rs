@@ -1,4 +1,4 @@
-//! Shapes, where they stand, and ray queries on them.
+//! The ray structure: shapes where they stand, and ray queries on them.
 //!
 //! The ray structure depends on shapes and placements only, so camera, lamps and materials change without building it
 //! again. A shape that is placed once and at rest is baked into the world (one level of tree, the fastest); one that
@@ -6,46 +6,13 @@
 
 use crate::Motion;
 use crate::embree::{self, Device, EmbreeError, RtcArguments, RtcRay, RtcRayHit};
+use crate::shape::{Mesh, Placement, Shape, bake, check_shape, reach};
+use crate::surface::{Hit, Ray, SurfacePoint, instance_point, mesh_point, sphere_point};
+use crate::ties::{TieContext, break_ties};
 use glam::{Affine3A, Vec2, Vec3};
 use std::ffi::c_void;
 use std::ptr;
 use thiserror::Error;
-
-/// A triangle mesh.
-#[derive(Clone, Debug, Default)]
-pub struct Mesh {
-    /// Corners.
-    pub positions: Vec<Vec3>,
-    /// Three corners to a face; counter-clockwise seen from outside.
-    pub indices: Vec<[u32; 3]>,
-    /// A normal at each corner, for smooth shading.
-    pub normals: Option<Vec<Vec3>>,
-    /// Texture coordinates at each corner.
-    pub uvs: Option<Vec<Vec2>>,
-}
-
-/// A shape in its own coordinates.
-#[derive(Clone, Debug)]
-pub enum Shape {
-    /// Triangles.
-    Mesh(Mesh),
-    /// A sphere.
-    Sphere {
-        /// Centre.
-        center: Vec3,
-        /// Radius.
-        radius: f32,
-    },
-}
-
-/// A shape somewhere in the world.
-#[derive(Clone, Debug)]
-pub struct Placement {
-    /// Which shape.
-    pub shape: usize,
-    /// Where, at every moment.
-    pub motion: Motion,
-}
 
 /// Why shapes and placements are no geometry.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -69,65 +36,6 @@ pub enum GeometryError {
     /// The ray library failed.
     #[error(transparent)]
     Embree(#[from] EmbreeError),
-}
-
-/// A ray: a half-line at a moment.
-#[derive(Clone, Copy, Debug)]
-pub struct Ray {
-    /// Where it starts.
-    pub origin: Vec3,
-    /// Unit direction.
-    pub direction: Vec3,
-    /// When, from 0 to 1 over the shutter.
-    pub time: f32,
-}
-
-/// Where a ray meets a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Distance along the ray.
-    pub distance: f32,
-    /// Which object.
-    pub object: u32,
-    /// Which triangle of it.
-    pub primitive: u32,
-    /// Barycentric coordinates of the second and third corner.
-    pub barycentric: [f32; 2],
-    /// The normal of the triangle in its own coordinates, of any length.
-    pub normal: Vec3,
-}
-
-/// The surface at a hit.
-#[derive(Clone, Copy, Debug)]
-pub struct SurfacePoint {
-    /// Position in the world.
-    pub position: Vec3,
-    /// A bound of its rounding error along the normal, and of that of a ray query that starts there.
-    pub error: f32,
-    /// Unit geometric normal, to the outside.
-    pub geometric_normal: Vec3,
-    /// Unit normal for shading, on the same side.
-    pub normal: Vec3,
-    /// Texture coordinates; barycentric ones where the mesh has none.
-    pub uv: Vec2,
-}
-
-impl SurfacePoint {
-    /// A point off the surface, on the side to which `direction` leads, from which a ray cannot hit the surface that
-    /// it leaves: displaced along the normal by the error bound (Wächter and Binder 2019; pbrt-v4, 6.8.6).
-    #[inline(always)]
-    #[must_use]
-    pub fn offset(&self, direction: Vec3) -> Vec3 {
-        // The bound is many times the rounding of the sum, so the displacement is never lost in it.
-        let side = self.error.copysign(self.geometric_normal.dot(direction));
-        self.position + self.geometric_normal * side
-    }
-}
-
-/// γ_n, the bound of n roundings (Higham 2002).
-const fn gamma(n: u32) -> f32 {
-    let ne = n as f32 * (f32::EPSILON * 0.5);
-    ne / (1.0 - ne)
 }
 
 /// A placed shape: baked into the world, or shared.
@@ -171,80 +79,6 @@ pub struct Geometry {
     reaches: Vec<f32>,
     bounds: (Vec3, Vec3),
     triangles: usize,
-}
-
-fn check_shape(shape: &Shape) -> Result<(), String> {
-    match shape {
-        Shape::Sphere { center, radius } => {
-            if center.is_finite() && radius.is_finite() && *radius > 0.0 {
-                Ok(())
-            } else {
-                Err(format!("a sphere needs a finite centre and a radius above 0, not {radius}"))
-            }
-        }
-        Shape::Mesh(mesh) => {
-            let corners = mesh.positions.len();
-            if mesh.indices.is_empty() {
-                return Err("the mesh has no faces".into());
-            }
-            if let Some(i) = mesh.positions.iter().position(|p| !p.is_finite()) {
-                return Err(format!("corner {i} of the mesh is not finite"));
-            }
-            if let Some(i) = mesh.indices.iter().position(|f| f.iter().any(|&c| c as usize >= corners)) {
-                return Err(format!("face {i} names a corner beyond the {corners} that there are"));
-            }
-            let normals =
-                mesh.normals.as_ref().is_none_or(|n| n.len() == corners && n.iter().all(|n| n.is_finite()));
-            let uvs = mesh.uvs.as_ref().is_none_or(|t| t.len() == corners && t.iter().all(|t| t.is_finite()));
-            if normals && uvs {
-                Ok(())
-            } else {
-                Err(format!(
-                    "normals and texture coordinates must be finite, one for each of the {corners} corners"
-                ))
-            }
-        }
-    }
-}
-
-fn bake(shape: &Shape, transform: &Affine3A) -> Result<Shape, String> {
-    match shape {
-        Shape::Sphere { center, radius } => {
-            let m = transform.matrix3;
-            let scales = [m.x_axis.length(), m.y_axis.length(), m.z_axis.length()];
-            let largest = scales[0].max(scales[1]).max(scales[2]);
-            let skew = m
-                .x_axis
-                .dot(m.y_axis)
-                .abs()
-                .max(m.y_axis.dot(m.z_axis).abs())
-                .max(m.z_axis.dot(m.x_axis).abs());
-            if scales.iter().any(|s| (s - largest).abs() > 1e-4 * largest) || skew > 1e-4 * largest * largest
-            {
-                return Err("a sphere cannot be scaled unevenly; use a mesh".into());
-            }
-            Ok(Shape::Sphere { center: transform.transform_point3(*center), radius: radius * largest })
-        }
-        Shape::Mesh(mesh) if *transform == Affine3A::IDENTITY => Ok(Shape::Mesh(mesh.clone())),
-        Shape::Mesh(mesh) => {
-            let normals = glam::Mat3::from(transform.matrix3).inverse().transpose();
-            let mirrored = transform.matrix3.determinant() < 0.0;
-            Ok(Shape::Mesh(Mesh {
-                positions: mesh.positions.iter().map(|p| transform.transform_point3(*p)).collect(),
-                // A mirrored mesh is turned inside out again.
-                indices: mesh
-                    .indices
-                    .iter()
-                    .map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] })
-                    .collect(),
-                normals: mesh
-                    .normals
-                    .as_ref()
-                    .map(|all| all.iter().map(|n| (normals * *n).normalize_or_zero()).collect()),
-                uvs: mesh.uvs.clone(),
-            }))
-        }
-    }
 }
 
 impl Geometry {
@@ -569,6 +403,32 @@ impl Geometry {
         }
     }
 
+    /// The tangent at a hit, along which the first texture coordinate grows: a unit vector in the plane of the triangle,
+    /// or of the parallel of a sphere; any in the surface where the coordinates do not tell.
+    #[must_use]
+    pub fn tangent(&self, ray: &Ray, hit: &Hit) -> Vec3 {
+        let normal = self.surface(ray, hit).geometric_normal;
+        let along_u = match self.triangle(hit.object as usize, hit.primitive as usize, ray.time) {
+            Some([a, b, c]) => {
+                let shape = match &self.objects[hit.object as usize] {
+                    Placed::Baked(shape) => shape,
+                    Placed::Instance { shape, .. } => &self.shapes[*shape],
+                };
+                let [s, t, r] = match shape {
+                    Shape::Mesh(Mesh { uvs: Some(uvs), indices, .. }) => {
+                        indices[hit.primitive as usize].map(|i| uvs[i as usize])
+                    }
+                    _ => [Vec2::ZERO, Vec2::X, Vec2::Y],
+                };
+                let (d1, d2) = (t - s, r - s);
+                ((b - a) * d2.y - (c - a) * d1.y) * d1.perp_dot(d2).signum()
+            }
+            None => Vec3::Z.cross(normal),
+        };
+        let flat = along_u - normal * along_u.dot(normal);
+        flat.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector())
+    }
+
     /// The corners of a triangle of an object in the world, at a time; `None` for spheres.
     #[must_use]
     pub fn triangle(&self, object: usize, primitive: usize, time: f32) -> Option<[Vec3; 3]> {
@@ -617,106 +477,6 @@ impl Geometry {
     }
 }
 
-/// What the tie-breaking filter remembers of the best hit so far.
-#[repr(C)]
-struct TieContext {
-    rtc: embree::RtcRayQueryContext,
-    distance: f32,
-    object: u32,
-    primitive: u32,
-}
-
-impl TieContext {
-    #[inline(always)]
-    fn new() -> Self {
-        Self {
-            rtc: embree::RtcRayQueryContext { inst_id: embree::INVALID, inst_prim_id: embree::INVALID },
-            distance: f32::INFINITY,
-            object: u32::MAX,
-            primitive: u32::MAX,
-        }
-    }
-}
-
-/// Called by Embree for each candidate that is no farther than the best: an equal distance is won by the smaller id.
-unsafe extern "C" fn break_ties(arguments: *const embree::RtcFilterArguments) {
-    // SAFETY: single-ray queries pass one ray, one hit and the context given to the query.
-    unsafe {
-        let arguments = &*arguments;
-        let best = &mut *arguments.context.cast::<TieContext>();
-        let (ray, hit) = (&*arguments.ray, &*arguments.hit);
-        let object = if hit.inst_id == embree::INVALID { hit.geom_id } else { hit.inst_id };
-        if ray.tfar == best.distance && (object, hit.prim_id) >= (best.object, best.primitive) {
-            *arguments.valid = 0;
-            return;
-        }
-        best.distance = ray.tfar;
-        best.object = object;
-        best.primitive = hit.prim_id;
-    }
-}
-
-/// The largest sum of coordinates and edges of any face: what the rounding of a point on it is proportional to.
-fn reach(shape: &Shape) -> f32 {
-    let Shape::Mesh(mesh) = shape else { return 0.0 };
-    let of_face = |face: &[u32; 3]| {
-        let [a, b, c] = face.map(|i| mesh.positions[i as usize]);
-        (a.abs() + b.abs() + c.abs() + (b - a).abs() + (c - a).abs()).max_element()
-    };
-    mesh.indices.iter().map(of_face).fold(0.0, f32::max)
-}
-
-#[inline(always)]
-fn mesh_point(mesh: &Mesh, reach: f32, hit: &Hit) -> SurfacePoint {
-    let corners = mesh.indices[hit.primitive as usize].map(|i| i as usize);
-    let [a, b, c] = corners.map(|i| mesh.positions[i]);
-    let [v, w] = hit.barycentric;
-    let u = 1.0 - v - w;
-    let position = a * u + b * v + c * w;
-    let geometric_normal = hit.normal.normalize();
-    // The position errs with the size of its terms; a query from there errs with the distances to the corners, along
-    // every axis, also along one on which all corners have the coordinate 0.
-    let error = reach * gamma(12);
-    let normal = mesh.normals.as_ref().map_or(geometric_normal, |normals| {
-        let [na, nb, nc] = corners.map(|i| normals[i]);
-        let n = (na * u + nb * v + nc * w).normalize_or(geometric_normal);
-        if n.dot(geometric_normal) < 0.0 { -n } else { n }
-    });
-    let uv = mesh.uvs.as_ref().map_or(Vec2::new(v, w), |uvs| {
-        let [ta, tb, tc] = corners.map(|i| uvs[i]);
-        ta * u + tb * v + tc * w
-    });
-    SurfacePoint { position, error, geometric_normal, normal, uv }
-}
-
-fn sphere_point(center: Vec3, radius: f32, near: Vec3) -> SurfacePoint {
-    let normal = (near - center).normalize_or(Vec3::Z);
-    let position = center + normal * radius;
-    let error = (center.abs().max_element() + radius) * gamma(24);
-    let uv = Vec2::new(
-        (normal.y.atan2(normal.x) * std::f32::consts::FRAC_1_PI * 0.5).rem_euclid(1.0),
-        normal.z.clamp(-1.0, 1.0).acos() * std::f32::consts::FRAC_1_PI,
-    );
-    SurfacePoint { position, error, geometric_normal: normal, normal, uv }
-}
-
-fn instance_point(local: &SurfacePoint, to_world: &Affine3A) -> SurfacePoint {
-    let m = glam::Mat3::from(to_world.matrix3);
-    let normals = m.inverse().transpose();
-    let position = to_world.transform_point3(local.position);
-    // The transform magnifies the error in its own space and adds roundings of its terms.
-    let magnified = m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length());
-    let terms = magnified * local.position.abs().max_element() + to_world.translation.abs().max_element();
-    let error = magnified * 1.8 * local.error + terms * gamma(32);
-    SurfacePoint {
-        position,
-        error,
-        geometric_normal: (normals * local.geometric_normal).normalize(),
-        normal: (normals * local.normal).normalize(),
-        uv: local.uv,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -758,6 +518,23 @@ mod tests {
         assert!(geometry.closest_hit(&down(6.0, 0.0)).is_none());
         assert!(geometry.is_occluded(vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, -2.0), 0.0, 1.0));
         assert!(!geometry.is_occluded(vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, -0.9), 0.0, 1.0));
+    }
+
+    #[test]
+    fn tangents_follow_the_texture() {
+        crate::embree::load_from_environment().unwrap();
+        let Shape::Mesh(mut mesh) = square(0.0) else { unreachable!() };
+        // u grows along y, v along −x.
+        mesh.uvs = Some(mesh.positions.iter().map(|p| Vec2::new(p.y, -p.x)).collect());
+        let geometry =
+            Geometry::new(vec![Shape::Mesh(mesh), square(-1.0)], vec![placed(0, 0.0), placed(1, 5.0)], 1)
+                .unwrap();
+        for (x, expected) in [(0.3, Some(Vec3::Y)), (5.2, None)] {
+            let ray = down(x, 0.1);
+            let tangent = geometry.tangent(&ray, &geometry.closest_hit(&ray).unwrap());
+            assert!((tangent.length() - 1.0).abs() < 1e-6 && tangent.z.abs() < 1e-6);
+            assert!(expected.is_none_or(|e| (tangent - e).length() < 1e-6), "{tangent}");
+        }
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Lamps: where light comes from, how a point asks for it, and with what density it is asked.
 
 use crate::environment::EnvironmentImage;
-use crate::geometry::{Geometry, Hit, SurfacePoint};
+use crate::geometry::Geometry;
+use crate::surface::{Hit, SurfacePoint};
 use glam::{Vec2, Vec3};
 use illuminant_optics::spherical_rectangle::SphericalRectangle;
 use illuminant_optics::spherical_triangle::SphericalTriangle;

@@ -10,12 +10,17 @@ mod lamp_chooser;
 mod motion;
 mod photometry;
 mod scene;
+mod shape;
+mod surface;
+mod ties;
 
 pub use camera::{Camera, CameraError};
 pub use environment::EnvironmentImage;
-pub use geometry::{Geometry, GeometryError, Hit, Mesh, Placement, Ray, Shape, SurfacePoint};
+pub use geometry::{Geometry, GeometryError};
 pub use lamp::{Lamp, LampForm, LampSample, SurfaceLamp};
 pub use lamp_chooser::{LampChooser, chooser};
 pub use motion::Motion;
 pub use photometry::{Quantity, Source, absolute_spectrum};
 pub use scene::{ImageData, Object, Scene, SceneError};
+pub use shape::{Mesh, Placement, Shape};
+pub use surface::{Hit, Ray, SurfacePoint};

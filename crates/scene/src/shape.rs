@@ -1,0 +1,126 @@
+//! Shapes, in their own coordinates and placed in the world.
+
+use crate::Motion;
+use glam::{Affine3A, Vec2, Vec3};
+
+/// A triangle mesh.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Corners.
+    pub positions: Vec<Vec3>,
+    /// Three corners to a face; counter-clockwise seen from outside.
+    pub indices: Vec<[u32; 3]>,
+    /// A normal at each corner, for smooth shading.
+    pub normals: Option<Vec<Vec3>>,
+    /// Texture coordinates at each corner.
+    pub uvs: Option<Vec<Vec2>>,
+}
+
+/// A shape in its own coordinates.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// Triangles.
+    Mesh(Mesh),
+    /// A sphere.
+    Sphere {
+        /// Centre.
+        center: Vec3,
+        /// Radius.
+        radius: f32,
+    },
+}
+
+/// A shape somewhere in the world.
+#[derive(Clone, Debug)]
+pub struct Placement {
+    /// Which shape.
+    pub shape: usize,
+    /// Where, at every moment.
+    pub motion: Motion,
+}
+
+/// A sentence on what is wrong with a shape, if anything is.
+pub(crate) fn check_shape(shape: &Shape) -> Result<(), String> {
+    match shape {
+        Shape::Sphere { center, radius } => {
+            if center.is_finite() && radius.is_finite() && *radius > 0.0 {
+                Ok(())
+            } else {
+                Err(format!("a sphere needs a finite centre and a radius above 0, not {radius}"))
+            }
+        }
+        Shape::Mesh(mesh) => {
+            let corners = mesh.positions.len();
+            if mesh.indices.is_empty() {
+                return Err("the mesh has no faces".into());
+            }
+            if let Some(i) = mesh.positions.iter().position(|p| !p.is_finite()) {
+                return Err(format!("corner {i} of the mesh is not finite"));
+            }
+            if let Some(i) = mesh.indices.iter().position(|f| f.iter().any(|&c| c as usize >= corners)) {
+                return Err(format!("face {i} names a corner beyond the {corners} that there are"));
+            }
+            let normals =
+                mesh.normals.as_ref().is_none_or(|n| n.len() == corners && n.iter().all(|n| n.is_finite()));
+            let uvs = mesh.uvs.as_ref().is_none_or(|t| t.len() == corners && t.iter().all(|t| t.is_finite()));
+            if normals && uvs {
+                Ok(())
+            } else {
+                Err(format!(
+                    "normals and texture coordinates must be finite, one for each of the {corners} corners"
+                ))
+            }
+        }
+    }
+}
+
+/// A shape moved into the world.
+pub(crate) fn bake(shape: &Shape, transform: &Affine3A) -> Result<Shape, String> {
+    match shape {
+        Shape::Sphere { center, radius } => {
+            let m = transform.matrix3;
+            let scales = [m.x_axis.length(), m.y_axis.length(), m.z_axis.length()];
+            let largest = scales[0].max(scales[1]).max(scales[2]);
+            let skew = m
+                .x_axis
+                .dot(m.y_axis)
+                .abs()
+                .max(m.y_axis.dot(m.z_axis).abs())
+                .max(m.z_axis.dot(m.x_axis).abs());
+            if scales.iter().any(|s| (s - largest).abs() > 1e-4 * largest) || skew > 1e-4 * largest * largest
+            {
+                return Err("a sphere cannot be scaled unevenly; use a mesh".into());
+            }
+            Ok(Shape::Sphere { center: transform.transform_point3(*center), radius: radius * largest })
+        }
+        Shape::Mesh(mesh) if *transform == Affine3A::IDENTITY => Ok(Shape::Mesh(mesh.clone())),
+        Shape::Mesh(mesh) => {
+            let normals = glam::Mat3::from(transform.matrix3).inverse().transpose();
+            let mirrored = transform.matrix3.determinant() < 0.0;
+            Ok(Shape::Mesh(Mesh {
+                positions: mesh.positions.iter().map(|p| transform.transform_point3(*p)).collect(),
+                // A mirrored mesh is turned inside out again.
+                indices: mesh
+                    .indices
+                    .iter()
+                    .map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] })
+                    .collect(),
+                normals: mesh
+                    .normals
+                    .as_ref()
+                    .map(|all| all.iter().map(|n| (normals * *n).normalize_or_zero()).collect()),
+                uvs: mesh.uvs.clone(),
+            }))
+        }
+    }
+}
+
+/// The largest sum of coordinates and edges of any face: what the rounding of a point on it is proportional to.
+pub(crate) fn reach(shape: &Shape) -> f32 {
+    let Shape::Mesh(mesh) = shape else { return 0.0 };
+    let of_face = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|i| mesh.positions[i as usize]);
+        (a.abs() + b.abs() + c.abs() + (b - a).abs() + (c - a).abs()).max_element()
+    };
+    mesh.indices.iter().map(of_face).fold(0.0, f32::max)
+}
