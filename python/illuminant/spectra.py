@@ -31,6 +31,7 @@ from __future__ import annotations
 
 import functools
 import math
+import operator
 import re
 import stat
 from collections.abc import Iterable
@@ -509,6 +510,8 @@ def _text(path: Path) -> str:
 
 def _floats(values: Iterable[float], subject: str) -> tuple[float, ...]:
     """Any one-dimensional sequence of numbers as a tuple of float."""
+    if type(values) is tuple and set(map(type, values)) == {float}:
+        return values
     tolist = getattr(values, "tolist", None)
     try:
         return tuple(float(value) for value in (tolist() if tolist else values))
@@ -516,10 +519,25 @@ def _floats(values: Iterable[float], subject: str) -> tuple[float, ...]:
         raise DataError(f"{subject} is not a list of numbers") from None
 
 
+def _fine(wavelengths: tuple[float, ...], values: tuple[float, ...], quantity: str) -> bool:
+    """Whether samples keep all rules, told at once; `_mistake` walks through the others to find which is broken."""
+    return (
+        len(wavelengths) > 1
+        and wavelengths[0] > 0
+        and 20 <= wavelengths[-1] < math.inf
+        and all(map(operator.lt, wavelengths, wavelengths[1:]))
+        and all(map(math.isfinite, values))
+        and (min(values) >= 0 or quantity in ("n", "k"))
+        and (max(values) <= 1 or quantity != "reflectance")
+    )
+
+
 def _mistake(
     wavelengths: tuple[float, ...], values: tuple[float, ...], quantity: str
 ) -> tuple[int, str] | None:
     """The first sample that breaks a rule of this module, and a sentence about it; None when all is well."""
+    if _fine(wavelengths, values, quantity):
+        return None
     if not wavelengths:
         return 0, "no data; expected at least two lines with a wavelength and a value"
     before = 0.0

@@ -123,10 +123,10 @@ def test_every_help_has_an_example_and_fits_80_columns(verb: str, capsys: pytest
     assert max(map(len, out.splitlines())) <= 80
 
 
-def test_debug_shows_the_traceback(tmp_path: Path, command: Command) -> None:
+def test_debug_shows_the_traceback(tmp_path: Path, command: Command, inside: Command) -> None:
     done = command("render", tmp_path / "none.toml", "--debug")
     assert done.returncode != 0 and "Traceback" in done.stderr
-    done = command("render", tmp_path / "none.toml")
+    done = inside("render", tmp_path / "none.toml")
     assert done.returncode == 2 and "Traceback" not in done.stderr
 
 

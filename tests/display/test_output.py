@@ -83,24 +83,24 @@ from illuminant.errors import MachineError
 from illuminant.image import Image
 image = Image(np.random.default_rng(0).random((300, 300, 3)))
 image.save(sys.argv[1])                                    # loads everything, and makes the older file
-resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]),) * 2)
-try:
-    Image(image.xyz * 2).save(sys.argv[1])
-except MachineError as error:
-    print(error)
+for limit in (20_000, 3_000, 0):
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+    try:
+        Image(image.xyz * 2).save(sys.argv[1])
+    except MachineError as error:
+        print(error)
 """
 
 
 @pytest.mark.skipif(not hasattr(resource, "RLIMIT_FSIZE"), reason="needs a limit on the size of files")
-@pytest.mark.parametrize("limit", [20_000, 3_000, 0])
 @pytest.mark.parametrize("name", ["a.exr", "a.png"])
-def test_a_full_disk_is_one_sentence_and_nothing_is_lost(tmp_path: Path, name: str, limit: int) -> None:
+def test_a_full_disk_is_one_sentence_and_nothing_is_lost(tmp_path: Path, name: str) -> None:
     path = tmp_path / name
     done = subprocess.run(
-        [sys.executable, "-c", _FULL, str(path), str(limit)], capture_output=True, text=True, timeout=60
+        [sys.executable, "-c", _FULL, str(path)], capture_output=True, text=True, timeout=60
     )
     assert done.returncode == 0, done.stderr
-    assert done.stdout == f"{path} cannot be written: file too large.\n"
+    assert done.stdout == f"{path} cannot be written: file too large.\n" * 3
     assert [item.name for item in tmp_path.iterdir()] == [name]
     assert Image.open(path).xyz.shape == (300, 300, 3)
 
