@@ -90,7 +90,7 @@ endif
 
 .venv/.packages: $(REQUIREMENTS) .venv/.uv
 	@echo "illuminant: installing the pinned packages"
-	@$(UV) pip sync --quiet --python $(BIN)/python --require-hashes $(REQUIREMENTS)
+	@$(UV) pip sync --compile-bytecode --quiet --python $(BIN)/python --require-hashes $(REQUIREMENTS)
 	@touch $@
 
 # The stamp takes the time at which the build began, so an edit made during the build is not missed.
@@ -115,7 +115,7 @@ requirements: .venv/.uv ## Pin the Python packages again (UPGRADE=1 takes newer 
 # Peers live in an environment of their own: they pin other versions of the same packages.
 .venv-bench/.packages: requirements/bench.txt .venv/.uv
 	@$(UV) venv --quiet --clear --python $(BIN)/python .venv-bench
-	@$(UV) pip sync --quiet --python .venv-bench/bin/python --require-hashes $<
+	@$(UV) pip sync --compile-bytecode --quiet --python .venv-bench/bin/python --require-hashes $<
 	@touch $@
 
 clean: ## Remove everything that was built, and the environments

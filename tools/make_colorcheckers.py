@@ -19,7 +19,7 @@ LAMPS = {
     "A": ("a", "An incandescent lamp of 2856 K."),
     "FL11": (
         "fl11",
-        "A fluorescent lamp of three narrow bands: its lines need `--sampling 1nm` or a fitted sampling.",
+        "A fluorescent lamp of three narrow bands: its lines need every nm, or a fitted sampling.",
     ),
 }
 
@@ -44,6 +44,7 @@ def chart(lamp: str, about: str) -> str:
         "",
         "[render]",
         "samples = 16",
+        *(['sampling = "1nm"'] if lamp.startswith("FL") else []),
         "",
         "[lights.lamp]",
         'kind = "directional"',
