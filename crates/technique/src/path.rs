@@ -139,12 +139,16 @@ struct State<const N: usize> {
     hero: Option<usize>,
     /// Where the last direction was drawn, with which normal and density; `None` after a discrete lobe or the camera.
     origin: Option<(Vec3, Vec3, f32)>,
+    /// Where the next vertex looks on a lamp.
+    u_lamp: [f32; 2],
 }
 
 impl PathTracer {
     /// Follows one path and adds the radiance that it brings to `radiance`, one bundle for each group of lamps.
     ///
-    /// `u_hero` chooses the sample that a dispersive refraction would keep.
+    /// `u_lamp` is where the first vertex looks on a lamp: it is drawn together with the place in the pixel, as every
+    /// later one with the direction that leads to it, so that the four numbers are spread jointly. `u_hero` chooses the
+    /// sample that a dispersive refraction would keep.
     #[inline]
     pub fn trace<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
         &self,
@@ -153,6 +157,7 @@ impl PathTracer {
         group_of: &[usize],
         ray: Ray,
         mut sequence: Sequence,
+        u_lamp: [f32; 2],
         u_hero: f32,
         radiance: &mut [Lanes<N>],
         probe: &mut P,
@@ -167,6 +172,7 @@ impl PathTracer {
             media: Media::default(),
             hero: None,
             origin: None,
+            u_lamp,
         };
         for segment in 1..=self.depth {
             probe.closest(&path.ray);
@@ -256,16 +262,16 @@ impl PathTracer {
             far: pass.index(far),
             hero_lane: path.hero.and_then(|sample| pass.lane(sample)),
         };
-        let u = sequence.next4();
+        let [u_lobe, u_survival, u_choice, _] = sequence.next4();
+        let [u, v, next_lamp @ ..] = sequence.next4();
         if model.is_continuous() {
-            let u_lamp = sequence.next4();
             self.ask_lamp(
-                scene, pass, group_of, path, point, normal, &frame, &at, model, beyond, u_lamp, radiance,
+                scene, pass, group_of, path, point, normal, &frame, &at, model, beyond, u_choice, radiance,
                 probe,
             );
         }
         let hero_lane = pass.lane(path.hero.unwrap_or(hero_sample));
-        let Some(drawn) = model.sample(&at, [u[0], u[1], u[2]], hero_lane) else { return false };
+        let Some(drawn) = model.sample(&at, [u, v, u_lobe], hero_lane) else { return false };
         let direction = frame.to_world(drawn.direction);
         let outward = direction.dot(point.geometric_normal);
         // Light must leave on the side on which the model says it does.
@@ -284,12 +290,13 @@ impl PathTracer {
         }
         if segment >= ROULETTE_FROM {
             let survival = path.brightness.min(0.98);
-            if u[3] >= survival {
+            if u_survival >= survival {
                 return false;
             }
             path.throughput *= survival.recip();
             path.brightness /= survival;
         }
+        path.u_lamp = next_lamp;
         path.ray = Ray { origin: point.offset(direction), direction, time: path.ray.time };
         path.origin = drawn.pdf.map(|pdf| (point.position, normal, pdf));
         true
@@ -309,17 +316,17 @@ impl PathTracer {
         at: &Incidence<'_, N>,
         model: &M,
         beyond: Media,
-        u: [f32; 4],
+        u_choice: f32,
         radiance: &mut [Lanes<N>],
         probe: &mut P,
     ) {
         let geometry = &*scene.geometry;
-        let Some((lamp, probability)) = scene.chooser.choose(&scene.lamps, point.position, normal, u[2])
+        let Some((lamp, probability)) = scene.chooser.choose(&scene.lamps, point.position, normal, u_choice)
         else {
             return;
         };
         let time = path.ray.time;
-        let Some(light) = scene.lamps[lamp].sample(geometry, point.position, time, [u[0], u[1]]) else {
+        let Some(light) = scene.lamps[lamp].sample(geometry, point.position, time, path.u_lamp) else {
             return;
         };
         let local = frame.to_local(light.direction);

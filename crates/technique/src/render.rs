@@ -155,14 +155,24 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
         let replicates = u64::from(job.settings.replicates.max(1));
         let stream = u64::from(y) << 32 | u64::from(x);
         let mut sequence = Sequence::new(job.settings.seed, stream, sample / replicates, sample % replicates);
-        let u = sequence.next4();
-        let (fx, fy) = (job.filter.offset(u[0]), job.filter.offset(u[1]));
-        let ray = job.scene.camera.ray(x as f32 + 0.5 + fx, y as f32 + 0.5 + fy, u[2]);
+        let [u, v, u_lamp @ ..] = sequence.next4();
+        let [u_time, u_hero, ..] = sequence.next4();
+        let (fx, fy) = (job.filter.offset(u), job.filter.offset(v));
+        let ray = job.scene.camera.ray(x as f32 + 0.5 + fx, y as f32 + 0.5 + fy, u_time);
         let mut primary = Primary::default();
         for pass in &self.passes {
             radiance.fill(Lanes::default());
-            primary =
-                self.tracer.trace(&job.scene, pass, &job.group_of, ray, sequence, u[3], radiance, probe);
+            primary = self.tracer.trace(
+                &job.scene,
+                pass,
+                &job.group_of,
+                ray,
+                sequence,
+                u_lamp,
+                u_hero,
+                radiance,
+                probe,
+            );
             each(pass, radiance, probe);
         }
         primary
