@@ -147,8 +147,7 @@ impl PathTracer {
     /// Follows one path and adds the radiance that it brings to `radiance`, one bundle for each group of lamps.
     ///
     /// `u_lamp` is where the first vertex looks on a lamp: it is drawn together with the place in the pixel, as every
-    /// later one with the direction that leads to it, so that the four numbers are spread jointly. `u_hero` chooses the
-    /// sample that a dispersive refraction would keep.
+    /// later one with the direction that leads to it, so that the four numbers are spread jointly.
     #[inline]
     pub fn trace<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
         &self,
@@ -158,13 +157,11 @@ impl PathTracer {
         ray: Ray,
         mut sequence: Sequence,
         u_lamp: [f32; 2],
-        u_hero: f32,
         radiance: &mut [Lanes<N>],
         probe: &mut P,
     ) -> Primary {
         let geometry = &*scene.geometry;
         let mut primary = Primary::default();
-        let hero_sample = ((u_hero * pass.total as f32) as usize).min(pass.total - 1);
         let mut path = State {
             ray,
             throughput: Lanes::splat(1.0),
@@ -208,7 +205,6 @@ impl PathTracer {
                     object.material,
                     segment,
                     &mut sequence,
-                    hero_sample,
                     radiance,
                     probe,
                 );
@@ -240,7 +236,6 @@ impl PathTracer {
         material: usize,
         segment: u32,
         sequence: &mut Sequence,
-        hero_sample: usize,
         radiance: &mut [Lanes<N>],
         probe: &mut P,
     ) -> bool {
@@ -262,7 +257,7 @@ impl PathTracer {
             far: pass.index(far),
             hero_lane: path.hero.and_then(|sample| pass.lane(sample)),
         };
-        let [u_lobe, u_survival, u_choice, _] = sequence.next4();
+        let [u_lobe, u_survival, u_choice, u_hero] = sequence.next4();
         let [u, v, next_lamp @ ..] = sequence.next4();
         if model.is_continuous() {
             self.ask_lamp(
@@ -270,6 +265,8 @@ impl PathTracer {
                 probe,
             );
         }
+        // The sample that a dispersive refraction here would keep.
+        let hero_sample = ((u_hero * pass.total as f32) as usize).min(pass.total - 1);
         let hero_lane = pass.lane(path.hero.unwrap_or(hero_sample));
         let Some(drawn) = model.sample(&at, [u, v, u_lobe], hero_lane) else { return false };
         let direction = frame.to_world(drawn.direction);

@@ -156,23 +156,15 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
         let stream = u64::from(y) << 32 | u64::from(x);
         let mut sequence = Sequence::new(job.settings.seed, stream, sample / replicates, sample % replicates);
         let [u, v, u_lamp @ ..] = sequence.next4();
-        let [u_time, u_hero, ..] = sequence.next4();
+        let [open, close] = job.scene.camera.shutter;
+        let u_time = if close > open { sequence.next4()[0] } else { 0.0 };
         let (fx, fy) = (job.filter.offset(u), job.filter.offset(v));
         let ray = job.scene.camera.ray(x as f32 + 0.5 + fx, y as f32 + 0.5 + fy, u_time);
         let mut primary = Primary::default();
         for pass in &self.passes {
             radiance.fill(Lanes::default());
-            primary = self.tracer.trace(
-                &job.scene,
-                pass,
-                &job.group_of,
-                ray,
-                sequence,
-                u_lamp,
-                u_hero,
-                radiance,
-                probe,
-            );
+            primary =
+                self.tracer.trace(&job.scene, pass, &job.group_of, ray, sequence, u_lamp, radiance, probe);
             each(pass, radiance, probe);
         }
         primary
