@@ -192,6 +192,9 @@ class Curves:
     def _from_file(self, table: SpectrumTable, use: str, path: Path) -> Spectrum | None:
         file = self.directory / str(table.file)
         spectrum = spectra.read(file, column=table.column)
+        if not spectrum.quantity and table.scale is not None:
+            # Percents, say: what the values are is known only when they have been scaled.
+            return replace(spectrum, outside="zero" if use == "emission" else "hold")
         if not spectrum.quantity and use in ("reflectance", "emission", "n", "k"):
             spectrum = spectra.read(file, column=table.column, quantity=use, name=spectrum.name)  # type: ignore[arg-type]
         return spectrum

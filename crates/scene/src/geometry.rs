@@ -410,11 +410,7 @@ impl Geometry {
         let normal = self.surface(ray, hit).geometric_normal;
         let along_u = match self.triangle(hit.object as usize, hit.primitive as usize, ray.time) {
             Some([a, b, c]) => {
-                let shape = match &self.objects[hit.object as usize] {
-                    Placed::Baked(shape) => shape,
-                    Placed::Instance { shape, .. } => &self.shapes[*shape],
-                };
-                let [s, t, r] = match shape {
+                let [s, t, r] = match self.shape(hit.object as usize) {
                     Shape::Mesh(Mesh { uvs: Some(uvs), indices, .. }) => {
                         indices[hit.primitive as usize].map(|i| uvs[i as usize])
                     }
@@ -432,29 +428,18 @@ impl Geometry {
     /// The corners of a triangle of an object in the world, at a time; `None` for spheres.
     #[must_use]
     pub fn triangle(&self, object: usize, primitive: usize, time: f32) -> Option<[Vec3; 3]> {
-        let corners = |mesh: &Mesh| mesh.indices[primitive].map(|i| mesh.positions[i as usize]);
-        match &self.objects[object] {
-            Placed::Baked(Shape::Mesh(mesh)) => Some(corners(mesh)),
-            Placed::Instance { shape, motion } => match &self.shapes[*shape] {
-                Shape::Mesh(mesh) => {
-                    let to_world = motion.at(time);
-                    let [a, b, c] = corners(mesh).map(|p| to_world.transform_point3(p));
-                    Some(if to_world.matrix3.determinant() < 0.0 { [a, c, b] } else { [a, b, c] })
-                }
-                Shape::Sphere { .. } => None,
-            },
-            Placed::Baked(Shape::Sphere { .. }) => None,
-        }
+        let Shape::Mesh(mesh) = self.shape(object) else { return None };
+        let corners = mesh.indices[primitive].map(|i| mesh.positions[i as usize]);
+        let Placed::Instance { motion, .. } = &self.objects[object] else { return Some(corners) };
+        let to_world = motion.at(time);
+        let [a, b, c] = corners.map(|p| to_world.transform_point3(p));
+        Some(if to_world.matrix3.determinant() < 0.0 { [a, c, b] } else { [a, b, c] })
     }
 
     /// How many triangles an object has; 0 for a sphere.
     #[must_use]
     pub fn primitives(&self, object: usize) -> usize {
-        let shape = match &self.objects[object] {
-            Placed::Baked(shape) => shape,
-            Placed::Instance { shape, .. } => &self.shapes[*shape],
-        };
-        match shape {
+        match self.shape(object) {
             Shape::Mesh(mesh) => mesh.indices.len(),
             Shape::Sphere { .. } => 0,
         }
@@ -466,6 +451,14 @@ impl Geometry {
         match &self.objects[object] {
             Placed::Baked(Shape::Sphere { center, radius }) => Some((*center, *radius)),
             _ => None,
+        }
+    }
+
+    /// The shape of an object, in the world if it is baked, else in its own coordinates.
+    fn shape(&self, object: usize) -> &Shape {
+        match &self.objects[object] {
+            Placed::Baked(shape) => shape,
+            Placed::Instance { shape, .. } => &self.shapes[*shape],
         }
     }
 
