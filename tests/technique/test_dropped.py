@@ -84,7 +84,7 @@ def test_a_dropped_sample_can_be_followed_again(image):
 
 
 def test_a_sample_followed_again_is_the_one_in_the_film():
-    """One sample a pixel: its XYZ is the image, bit by bit (the film holds multiples of 2⁻⁶⁴)."""
+    """One sample a pixel: its XYZ is the image, bit by bit (the film holds multiples of 2⁻⁴⁸)."""
     scene = blinding(1.0)
     image = illuminant.render(scene, samples=1, **OPTIONS)
     for x, y in [(1, 2), (4, 0), (7, 5)]:
@@ -177,3 +177,18 @@ def test_an_image_of_which_every_sample_was_dropped_is_black(command, tmp_path):
     assert rendered.returncode == 0, rendered.stderr
     assert json.loads(rendered.stdout)["dropped"] == 8
     assert output.exists()
+
+
+def test_a_lane_that_the_film_cannot_hold_is_dropped_though_its_xyz_is_nothing(core_render):
+    """In the infrared ȳ is all but zero: the spectra overflow where XYZ does not."""
+    scene = Scene.build(
+        range_nm=[800, 1200],
+        camera={"eye": [0, 0, 3], "target": [0, 0, 0], "size": [4, 4], "field_of_view": 20},
+        objects={"ball": {"material": "grey", "sphere": {"center": [0, 0, 0], "radius": 1}}},
+        materials={"grey": {"kind": "diffuse", "reflectance": 0.5}},
+        lights={"sky": {"kind": "environment", "spectrum": 1.0, "radiance_scale": 1e15}},
+    )
+    for layers, dropped in [([], 0), (["spectra"], 4 * 4 * 2)]:
+        render = core_render(scene, sampling="uniform:4", layers=layers)
+        assert render.run(0, 2)
+        assert render.statistics()["dropped"] == dropped

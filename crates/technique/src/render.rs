@@ -208,15 +208,16 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
                             spectral_layers(job, pass, light, &mut values);
                         }
                     });
-                if !(sound && xyz.iter().all(|v| v.abs() < TOO_LARGE)) {
-                    result.dropped.push((pixel, sample));
-                    continue;
-                }
                 values[..3].copy_from_slice(&xyz);
                 if !plain {
                     auxiliary_layers(job, &primary, sample, &mut values);
                 }
-                tile.add(i, &values);
+                // Every channel, not XYZ alone: a lane in the infrared may be vast where its XYZ is nothing.
+                if sound && values.iter().all(|v| v.abs() < TOO_LARGE) {
+                    tile.add(i, &values);
+                } else {
+                    result.dropped.push((pixel, sample));
+                }
             }
         }
         result
