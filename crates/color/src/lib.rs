@@ -6,11 +6,13 @@
 
 mod difference;
 mod lab;
+mod metric;
 mod rgb_system;
 mod upsampling;
 
 pub use difference::delta_e_2000;
 pub use lab::Lab;
+pub use metric::delta_e_2000_metric;
 pub use rgb_system::{RgbSystem, Transfer, rgb_system_names};
 pub use upsampling::{Sigmoid, SigmoidTable, Upsampler};
 
