@@ -111,10 +111,6 @@ class Scene:
         """From how far a picture of this width shows what the camera saw."""
     def project(self, point: Sequence[float]) -> list[float] | None:
         """Where a point of the world appears, in pixels; None behind the eye."""
-    def spectral_error(self, sampling: str) -> dict[str, Any]:
-        """ΔE00 of a spectral sampling against 1 nm: mean, p95, max, and the lamp and material of the largest."""
-    def warnings(self, settings: str) -> list[str]:
-        """Sentences on what to know before rendering with these settings (JSON)."""
     def sees_anything(self) -> bool:
         """Whether any object or surroundings lie in the camera's view."""
 
@@ -125,6 +121,11 @@ class Render:
         """A render of a scene with settings (JSON), and an empty film."""
     def run(self, first: int, last: int, progress: Callable[[float], object] | None = None) -> bool:
         """Renders samples first..last of every pixel; False when `progress` returned False and so cancelled it."""
+    def spectral_error(self) -> dict[str, Any]:
+        """ΔE00 of the spectral sampling against 1 nm in this scene: mean, p95, max, and the lamp and material of the
+        largest."""
+    def warnings(self) -> list[str]:
+        """Sentences on what to know before rendering."""
     def layers(self) -> list[str]:
         """The names of the layers."""
     def layer(self, name: str) -> NDArray[np.float64]:

@@ -80,10 +80,11 @@ def refuse(scene: Scene, threads: int = 0, words: Collection[str] = WORDS) -> No
 
 def warnings(scene: Scene) -> list[str]:
     """Sentences on what was accepted but may surprise, with the options that `[render]` names."""
+    from illuminant.core import core
     from illuminant.settings import resolve
 
     settings = resolve(scene.render_defaults)
-    return [*scene.warnings, *map(str, scene.core().warnings(settings.to_core()))]
+    return [*scene.warnings, *core().Render(scene.core(), settings.to_core()).warnings()]
 
 
 def _unknown_words(scene: Scene, words: Collection[str]) -> list[tuple[str, str]]:

@@ -203,11 +203,11 @@ class Job:
 
     def warnings(self) -> list[str]:
         """Sentences on what in these settings does not suit this scene."""
-        return [*self.scene.warnings, *map(str, self.core_scene.warnings(self.settings.to_core()))]
+        return [*self.scene.warnings, *self.core_render.warnings()]
 
     def spectral_error(self) -> dict[str, Any]:
         """Error of the spectral sampling against 1 nm, in ΔE00, over what paths can meet in this scene."""
-        return dict(self.core_scene.spectral_error(self.settings.sampling))
+        return dict(self.core_render.spectral_error())
 
     def interrupt(self) -> None:
         """End the work at the next tile, as Ctrl-C does; for signal handlers."""
@@ -474,7 +474,7 @@ def render(
         scene: a `Scene`, or the path of a scene file.
         technique: how light is followed; default `path`.
         illumination: what a surface does; default `general`.
-        sampling: how wavelengths are carried; default `uniform:32`; `1nm` is the reference.
+        sampling: how wavelengths are carried; default `fitted:8`; `1nm` is the reference.
         samples: paths for each pixel; default 64, or no limit with `time` or `error`.
         size: `(width, height)` in pixels, or `"960x540"`; default the camera's.
         depth: longest path in segments, default no limit; 1 shows lamps only, 2 direct light.

@@ -174,7 +174,7 @@ class Render(Table):
 
     technique: str | None = key("how light is followed", '"path"', None)
     illumination: str | None = key("what a surface does with it", '"general"', None)
-    sampling: str | None = key("how wavelengths are carried", '"uniform:32"', None)
+    sampling: str | None = key("how wavelengths are carried", '"fitted:8"', None)
     samples: Annotated[int, Field(ge=1, lt=2**32)] | None = key("samples of each pixel", "256", None)
     depth: Annotated[int, Field(ge=1, lt=2**16)] | None = key(
         "longest path in segments: 1 shows lamps only, 2 direct light; default no limit", "16", None

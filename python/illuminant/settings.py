@@ -57,7 +57,7 @@ class Settings:
 
     technique: str = "path"
     illumination: str = "general"
-    sampling: str = "uniform:32"
+    sampling: str = "fitted:8"
     samples: int | None = DEFAULT_SAMPLES
     size: tuple[int, int] | None = None
     depth: int | None = None

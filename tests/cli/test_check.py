@@ -146,6 +146,7 @@ def test_what_only_the_core_finds_is_reported_with_its_line(
 def test_warnings_are_shown_and_are_no_mistakes(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The core's (a lamp with lines) and the scene's own (an RGB colour that no smooth reflectance has)."""
     text = scene.read_text().replace('spectrum = "A"', 'spectrum = "FL11"')
+    text = text.replace("[render]\n", '[render]\nsampling = "uniform:32"\n')
     rgb = '{ rgb = [1.0, 0.0, 0.0], role = "albedo", system = "Rec.2020" }'
     scene.write_text(text.replace("reflectance = 0.5", f"reflectance = {rgb}"))
     assert run(["check", str(scene)]) == 0

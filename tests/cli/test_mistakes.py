@@ -89,7 +89,11 @@ LONG = "a" * 5000
         ("render ball.toml --threads -1", "--threads -1: expected a whole number from 0"),
         ("render ball.toml --filter box:nan", "--filter box:nan: expected gaussian, box or tent"),
         ("render ball.toml --technique magic", '--technique magic: no technique "magic"; known is path.'),
-        ("render ball.toml --sampling fitted:0", '--sampling fitted:0: no spectral sampling "fitted:0"'),
+        (
+            "render ball.toml --sampling fitted:0",
+            '--sampling fitted:0: fitted:N takes a whole number N from 1 to 32, not "0"',
+        ),
+        ("render ball.toml --sampling rbg", '--sampling rbg: no spectral sampling "rbg"; known are fitted:N'),
         ("render ball.toml --pixel 1", "--pixel 1: expected column and row"),
         ("render ball.toml --pixel 1,1 --sample -1", "--sample -1: expected a whole number from 0 to"),
         ("render ball.toml --sample 3", "--sample 3: goes with --pixel"),

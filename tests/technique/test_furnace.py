@@ -116,7 +116,9 @@ def test_a_clear_sphere_in_uniform_surroundings_is_invisible(measure, medium, di
     lanes = 8 if dispersion else 4
     result = measure(scene, seen, samples=600, layers="normal", sampling=f"uniform:{lanes}")
     assert seen(result.image).sum() * 600 >= 1e6
-    assert result.lanes == pytest.approx(np.ones(lanes), rel=TOLERANCE)
+    # Dispersed light has wavelengths of its own, and each is kept in the nearest lane: what lies at the border of two
+    # goes to one of them.
+    assert result.lanes == pytest.approx(np.ones(lanes), rel=0.02 if dispersion else TOLERANCE)
     flat = result.image.to_xyz.sum(axis=1)
     assert result.xyz == pytest.approx(flat, rel=TOLERANCE)
 

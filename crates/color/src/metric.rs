@@ -37,10 +37,9 @@ pub fn delta_e_2000_metric(xyz: Triple, white: Triple) -> [Triple; 3] {
     let (chroma, hue) = (a.hypot(b), b.atan2(a));
     let (sin, cos) = hue.sin_cos();
     let deg = f64::to_radians;
-    let t = 1.0 - 0.17 * (hue - deg(30.0)).cos()
-        + 0.24 * (2.0 * hue).cos()
-        + 0.32 * (3.0 * hue + deg(6.0)).cos()
-        - 0.20 * (4.0 * hue - deg(63.0)).cos();
+    let t =
+        1.0 - 0.17 * (hue - deg(30.0)).cos() + 0.24 * (2.0 * hue).cos() + 0.32 * (3.0 * hue + deg(6.0)).cos()
+            - 0.20 * (4.0 * hue - deg(63.0)).cos();
     let turn = (hue.to_degrees().rem_euclid(360.0) - 275.0) / 25.0;
     let rotation = deg(30.0) * (-turn * turn).exp();
     let chroma7 = chroma.powi(7);

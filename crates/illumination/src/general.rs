@@ -8,7 +8,7 @@
 use crate::model::{Claims, DiscreteLobe, IlluminationModel, Incidence, Prepare, Scattered};
 use crate::{Material, REPRESENTATIVE_NM, Surface};
 use glam::Vec3;
-use illuminant_optics::fresnel::{conductor, dielectric};
+use illuminant_optics::fresnel::{conductor, dielectric, interpolated};
 use illuminant_optics::ggx::Ggx;
 use illuminant_optics::hemisphere;
 use illuminant_optics::vectors::{dot, reflect, refract};
@@ -19,6 +19,42 @@ use std::ops::Range;
 
 /// Below this slope parameter a surface is taken as smooth: f32 cannot resolve its highlight.
 const SMOOTH: f64 = 1e-3;
+
+/// The reflectance of a conductor.
+#[derive(Clone, Copy, Debug)]
+pub enum Metal<const N: usize> {
+    /// Fresnel's, from the complex index n + ik in every lane.
+    Index {
+        /// Real part.
+        n: Lanes<N>,
+        /// Imaginary part.
+        k: Lanes<N>,
+    },
+    /// Where lanes are no wavelengths: the colour at normal incidence, and between there and grazing Cook's interpolation
+    /// by an average conductor with n = 1 (book III.19, III.20).
+    Colour {
+        /// At normal incidence.
+        normal: Lanes<N>,
+        /// The average conductor's k.
+        k: f32,
+    },
+}
+
+impl<const N: usize> Metal<N> {
+    /// The reflectance in every lane at an angle, in a medium of index `near`.
+    #[inline(always)]
+    fn reflectance(&self, cos: f32, near: &Lanes<N>) -> Lanes<N> {
+        match self {
+            Self::Index { n, k } => {
+                Lanes(std::array::from_fn(|i| conductor(cos, n.0[i] / near.0[i], k.0[i] / near.0[i])))
+            }
+            Self::Colour { normal, k } => {
+                let (average, at_normal) = (conductor(cos, 1.0, *k), conductor(1.0, 1.0, *k));
+                normal.map(|f| interpolated(f, average, at_normal))
+            }
+        }
+    }
+}
 
 /// A material as the model `general` sees it, in the lanes of one pass.
 #[derive(Clone, Copy, Debug)]
@@ -32,10 +68,8 @@ pub enum General<const N: usize> {
     },
     /// A conductor.
     Conductor {
-        /// Real part of the index.
-        n: Lanes<N>,
-        /// Imaginary part.
-        k: Lanes<N>,
+        /// Its reflectance at every angle.
+        fresnel: Metal<N>,
         /// Reflectance at normal incidence as one number.
         brightness: f32,
         /// The facets; `None` for a mirror.
@@ -51,33 +85,40 @@ pub enum General<const N: usize> {
 }
 
 impl<const N: usize> Prepare for General<N> {
-    fn prepare(material: &Material, basis: &dyn Basis, samples: Range<usize>, range: SpectralRange) -> Self {
+    fn prepare(
+        material: &Material,
+        brightness: f32,
+        basis: &dyn Basis,
+        samples: Range<usize>,
+        range: SpectralRange,
+    ) -> Self {
         let lanes = |curve, role| Lanes::from_slice(&basis.reduce(curve, role)[samples.clone()]);
         let facets = |roughness: f64| (roughness >= SMOOTH).then_some(Ggx { alpha: roughness as f32 });
-        let brightness = material.brightness(range) as f32;
         match &material.surface {
             Surface::Diffuse { reflectance } => {
                 Self::Diffuse { brdf: lanes(reflectance, Role::Fraction) * FRAC_1_PI, brightness }
             }
             Surface::Conductor { n, k, roughness } => Self::Conductor {
-                n: lanes(n, Role::Constant),
-                k: lanes(k, Role::Constant),
+                fresnel: if basis.is_spectral() {
+                    Metal::Index { n: lanes(n, Role::Constant), k: lanes(k, Role::Constant) }
+                } else {
+                    let reflectance = material.representative_reflectance(range);
+                    let mean = reflectance.area(range) / range.width_nm();
+                    // k = 2 √(F / (1 − F)) for n = 1 (book III.19).
+                    let k = 2.0 * (mean / (1.0 - mean)).sqrt();
+                    Metal::Colour { normal: lanes(&reflectance, Role::Fraction), k: k as f32 }
+                },
                 brightness,
                 facets: facets(*roughness),
             },
             Surface::Dielectric { n, roughness, dispersion, .. } => {
                 let (low, high) = n.extent(range);
-                let dispersive = *dispersion && high - low > 1e-6 * n.at(REPRESENTATIVE_NM);
+                let dispersive =
+                    *dispersion && basis.is_spectral() && high - low > 1e-6 * n.at(REPRESENTATIVE_NM);
                 Self::Dielectric { dispersive, facets: facets(*roughness) }
             }
         }
     }
-}
-
-/// Fresnel's reflectance of a conductor in a medium, lane by lane.
-#[inline(always)]
-fn conductor_lanes<const N: usize>(cos: f32, n: &Lanes<N>, k: &Lanes<N>, near: &Lanes<N>) -> Lanes<N> {
-    Lanes(std::array::from_fn(|i| conductor(cos, n.0[i] / near.0[i], k.0[i] / near.0[i])))
 }
 
 /// dω_h / dω_l of a refraction at a facet (Walter et al. 2007, eq 17); `cos_l` is negative.
@@ -261,7 +302,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
                     Lanes::default()
                 }
             }
-            Self::Conductor { n, k, facets: Some(ggx), .. } => {
+            Self::Conductor { fresnel, facets: Some(ggx), .. } => {
                 let flip = 1f32.copysign(at.to_viewer.z);
                 let (v, l) = (at.to_viewer * flip, to_light * flip);
                 let h = (v + l).normalize_or_zero();
@@ -270,7 +311,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
                 }
                 let (v, l, h) = (v.to_array(), l.to_array(), h.to_array());
                 let shape = ggx.distribution(h) * ggx.masking_shadowing(v, l) / (4.0 * v[2] * l[2]);
-                conductor_lanes(dot(v, h).clamp(0.0, 1.0), n, k, at.near.lanes) * shape
+                fresnel.reflectance(dot(v, h).clamp(0.0, 1.0), at.near.lanes) * shape
             }
             Self::Dielectric { dispersive, facets: Some(ggx) } => {
                 let (f_cos, _) = Self::rough_dielectric(at, *dispersive, ggx, to_light);
@@ -322,7 +363,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
                     disperses: false,
                 })
             }
-            Self::Conductor { n, k, brightness, facets } => {
+            Self::Conductor { fresnel, brightness, facets } => {
                 let v = (at.to_viewer * flip).to_array();
                 let h = facets.map_or([0.0, 0.0, 1.0], |ggx| ggx.sample_visible(v, [u[0], u[1]]));
                 let cos = dot(v, h).clamp(0.0, 1.0);
@@ -333,7 +374,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
                 let seen = facets.map_or(1.0, |ggx| ggx.masking_shadowing(v, l) / ggx.masking(v));
                 Some(Scattered {
                     direction: Vec3::from(l) * flip,
-                    weight: conductor_lanes(cos, n, k, at.near.lanes) * seen,
+                    weight: fresnel.reflectance(cos, at.near.lanes) * seen,
                     brightness: *brightness * seen,
                     pdf: facets.map(|ggx| ggx.pdf_visible(v, h) / (4.0 * cos)),
                     transmitted: false,
@@ -352,9 +393,9 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
         let normal = [0.0, 0.0, 1.0];
         let mirrored = Vec3::from(reflect(v, normal)) * flip;
         match self {
-            Self::Conductor { n, k, facets: None, .. } => vec![DiscreteLobe {
+            Self::Conductor { fresnel, facets: None, .. } => vec![DiscreteLobe {
                 direction: mirrored,
-                weight: conductor_lanes(v[2], n, k, at.near.lanes),
+                weight: fresnel.reflectance(v[2], at.near.lanes),
                 transmitted: false,
             }],
             Self::Dielectric { dispersive, facets: None } => {

@@ -8,7 +8,7 @@ mod general;
 mod material;
 mod model;
 
-pub use general::General;
+pub use general::{General, Metal};
 pub use material::{Material, REPRESENTATIVE_NM, Surface};
 pub use model::{Claims, DiscreteLobe, Hero, IlluminationModel, Incidence, Index, Prepare, Scattered};
 

@@ -114,6 +114,13 @@ pub trait IlluminationModel<const N: usize>: Send + Sync {
 
 /// How a model is made from a material: the documented rule of each model.
 pub trait Prepare: Sized {
-    /// Derives the model's coefficients in the lanes of one pass (`samples` of `basis`).
-    fn prepare(material: &Material, basis: &dyn Basis, samples: Range<usize>, range: SpectralRange) -> Self;
+    /// Derives the model's coefficients in the lanes of one pass (`samples` of `basis`). `brightness` is that of
+    /// [`Material::brightness`], which is the same for all passes.
+    fn prepare(
+        material: &Material,
+        brightness: f32,
+        basis: &dyn Basis,
+        samples: Range<usize>,
+        range: SpectralRange,
+    ) -> Self;
 }

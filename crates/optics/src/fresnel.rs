@@ -108,6 +108,24 @@ pub fn conductor<R: Real>(cos_i: R, n: R, k: R) -> R {
     if reflectance.is_nan() { R::zero() } else { reflectance }
 }
 
+/// The reflectance of a conductor at an angle, from its own at normal incidence and from the reflectance of an average
+/// conductor at that angle and at normal incidence (Cook and Torrance 1982; book eq III.20):
+/// F(θ) = F(0) + (1 − F(0)) (F̄(θ) − F̄(0)) / (1 − F̄(0)), not below zero.
+///
+/// It serves where only a colour is known of a conductor, as in computation with RGB.
+///
+/// ```
+/// use illuminant_optics::fresnel::{conductor, interpolated};
+/// let average = |cos| conductor(cos, 1.0, 2.5);
+/// assert_eq!(interpolated(0.3, average(1.0), average(1.0)), 0.3); // what was known at normal incidence
+/// assert!((interpolated(0.3, average(1e-9), average(1.0)) - 1.0).abs() < 1e-6); // and 1 at grazing
+/// ```
+#[inline(always)]
+pub fn interpolated<R: Real>(normal: R, average: R, average_at_normal: R) -> R {
+    let rise = (average - average_at_normal) / (R::one() - average_at_normal);
+    (normal + (R::one() - normal) * rise).max(R::zero())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,10 +1,8 @@
 //! `scene`: geometry, scenes and the ray library.
 
 use glam::{Affine3A, Vec2, Vec3};
-use illuminant_sampling::{SpectralSampling, spectral_error};
 use illuminant_scene::description::Description;
 use illuminant_scene::{Geometry, GeometryError, ImageData, Mesh, Motion, Placement, Scene, Shape, embree};
-use illuminant_spectrum::Curve;
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -175,59 +173,10 @@ impl PyScene {
         self.0.camera.project(point.into())
     }
 
-    /// The error of a sampling on this scene's lamps and materials: ΔE00 against 1 nm.
-    fn spectral_error<'py>(&self, py: Python<'py>, sampling: &str) -> PyResult<Bound<'py, PyDict>> {
-        let found = error_of(&self.0, sampling)?;
-        let dict = PyDict::new(py);
-        dict.set_item("mean", found.mean)?;
-        dict.set_item("p95", found.p95)?;
-        dict.set_item("max", found.max)?;
-        dict.set_item("lamp", self.0.lamps.get(found.lamp).map(|l| l.name.clone()))?;
-        let names: Vec<_> = found.materials.iter().map(|&m| self.0.materials[m].name.clone()).collect();
-        dict.set_item("material", (!names.is_empty()).then(|| names.join(" × ")))?;
-        Ok(dict)
-    }
-
-    /// Sentences on what the user should know before rendering with these settings (JSON).
-    fn warnings(&self, settings: &str) -> PyResult<Vec<String>> {
-        let mut warnings = Vec::new();
-        let settings = crate::technique::settings(settings)?;
-        let sampling = settings.sampling;
-        let parsed: SpectralSampling = sampling
-            .parse()
-            .map_err(|e: illuminant_sampling::SamplingError| PyValueError::new_err(e.to_string()))?;
-        let basis = parsed.basis(self.0.range);
-        for lamp in &self.0.lamps {
-            let found = spectral_error(&*basis, self.0.range, std::slice::from_ref(&lamp.spectrum), &[]);
-            if found.max > 1.0 {
-                warnings.push(format!(
-                    "lamp {:?} has a spectrum too fine for {sampling} (its white is off by ΔE00 {:.1}); use 1nm",
-                    lamp.name, found.max
-                ));
-            }
-        }
-        if !self.0.sees_anything() {
-            warnings.push(
-                "the camera sees nothing: no object lies in its view, and there is no environment".into(),
-            );
-        }
-        Ok(warnings)
-    }
-
     /// Whether any object or surroundings lie in the camera's view.
     fn sees_anything(&self) -> bool {
         self.0.sees_anything()
     }
-}
-
-/// The lamps' spectra, and the materials' reflectances.
-fn error_of(scene: &Scene, sampling: &str) -> PyResult<illuminant_sampling::SpectralError> {
-    let sampling: SpectralSampling = sampling
-        .parse()
-        .map_err(|e: illuminant_sampling::SamplingError| PyValueError::new_err(e.to_string()))?;
-    let basis = sampling.basis(scene.range);
-    let lamps: Vec<Curve> = scene.lamps.iter().map(|lamp| lamp.spectrum.clone()).collect();
-    Ok(spectral_error(&*basis, scene.range, &lamps, &scene.reflectances()))
 }
 
 pub(crate) fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {

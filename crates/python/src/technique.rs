@@ -105,6 +105,25 @@ impl PyRender {
         })
     }
 
+    /// The error of the spectral sampling in this scene: ΔE00 against 1 nm.
+    fn spectral_error<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let found = py.detach(|| self.0.spectral_error());
+        let scene = self.0.scene();
+        let dict = PyDict::new(py);
+        dict.set_item("mean", found.mean)?;
+        dict.set_item("p95", found.p95)?;
+        dict.set_item("max", found.max)?;
+        dict.set_item("lamp", scene.lamps.get(found.lamp).map(|l| l.name.clone()))?;
+        let names: Vec<_> = found.materials.iter().map(|&m| scene.materials[m].name.clone()).collect();
+        dict.set_item("material", (!names.is_empty()).then(|| names.join(" × ")))?;
+        Ok(dict)
+    }
+
+    /// Sentences on what the user should know before rendering.
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings()
+    }
+
     /// The names of the layers.
     fn layers(&self) -> Vec<String> {
         let kept = |name: &&illuminant_technique::LayerPlan| name.name != "halves";

@@ -1,86 +1,119 @@
-//! What a spectral sampling costs in colour, found on the scene's own lamps and materials.
+//! What a spectral sampling costs in colour.
 
-use crate::{Basis, Role};
-use illuminant_color::{Lab, delta_e_2000};
-use illuminant_spectrum::{Curve, Observer, SpectralRange};
+use crate::{Basis, Products, Role};
+use illuminant_color::{Lab, Triple, delta_e_2000};
+use rayon::prelude::*;
 
-/// The ΔE00 of a sampling against 1 nm, over the lamps and what one or two reflections make of their light.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SpectralError {
-    /// Mean ΔE00.
-    pub mean: f64,
-    /// 95th percentile.
-    pub p95: f64,
-    /// Largest ΔE00.
-    pub max: f64,
-    /// The lamp of the largest, as an index.
+/// A colour as it is and as a sampling makes it.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// XYZ integrated at 1 nm.
+    pub exact: Triple,
+    /// XYZ by the sampling.
+    pub sampled: Triple,
+    /// XYZ of the white beside which it is seen.
+    pub white: Triple,
+    /// How much it counts in the mean.
+    pub weight: f64,
+    /// The lamp that gives most of its light, as an index.
     pub lamp: usize,
-    /// The materials of the largest: none for the lamp itself, else one or two indices.
+    /// The materials that made it, as indices.
     pub materials: Vec<usize>,
 }
 
-/// The error of `basis` on the products lamp × up to two of `reflectances`, each seen beside a perfect diffuser
-/// under the same lamp (CIEDE2000 against integration at 1 nm).
-#[must_use]
-pub fn spectral_error(
-    basis: &dyn Basis,
-    range: SpectralRange,
-    lamps: &[Curve],
-    reflectances: &[Curve],
-) -> SpectralError {
-    let observer = Observer::cie_1931_2deg();
-    let fine: Vec<Vec<f64>> = reflectances.iter().map(|c| c.tabulate(range)).collect();
-    let coarse: Vec<Vec<f64>> = reflectances.iter().map(|c| basis.reduce(c, Role::Fraction)).collect();
-    let matching = observer.matching.each_ref().map(|m| m.tabulate(range));
-    let mut found: Vec<(f64, usize, Vec<usize>)> = Vec::new();
-    for (lamp, curve) in lamps.iter().enumerate() {
-        let light = curve.tabulate(range);
-        let lanes = basis.reduce(curve, Role::Emission);
-        let map = basis.to_xyz(lamp);
-        let white = observer.xyz(curve, range);
-        if white[1] <= 0.0 {
-            continue;
-        }
-        let mut compare = |materials: Vec<usize>| {
-            let product =
-                |tables: &[Vec<f64>], i: usize| materials.iter().map(|&m| tables[m][i]).product::<f64>();
-            let mut exact = [0.0; 3];
-            for (i, &l) in light.iter().enumerate() {
-                let value = illuminant_spectrum::LUMINOUS_EFFICACY * l * product(&fine, i);
-                for (sum, m) in exact.iter_mut().zip(&matching) {
-                    *sum += value * m[i];
-                }
-            }
-            let mut sampled = [0.0; 3];
-            for (i, &l) in lanes.iter().enumerate() {
-                let value = l * product(&coarse, i);
-                for (sum, row) in sampled.iter_mut().zip(&map) {
-                    *sum += value * row[i];
-                }
-            }
-            let difference = delta_e_2000(Lab::from_xyz(exact, white), Lab::from_xyz(sampled, white));
-            found.push((difference, lamp, materials));
-        };
-        compare(vec![]);
-        for a in 0..reflectances.len() {
-            compare(vec![a]);
-            for b in a..reflectances.len() {
-                compare(vec![a, b]);
-            }
-        }
+impl Comparison {
+    /// ΔE00 between the two.
+    #[must_use]
+    pub fn delta_e(&self) -> f64 {
+        delta_e_2000(Lab::from_xyz(self.exact, self.white), Lab::from_xyz(self.sampled, self.white))
     }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((max, lamp, materials)) = found.last().cloned() else { return SpectralError::default() };
-    let mean = found.iter().map(|f| f.0).sum::<f64>() / found.len() as f64;
-    let p95 = found[(found.len() * 95 / 100).min(found.len() - 1)].0;
-    SpectralError { mean, p95, max, lamp, materials }
+
+    /// The same colour lit so that its Y is half that of the white.
+    #[must_use]
+    pub fn lit_to_half(mut self) -> Self {
+        let scale = 0.5 * self.white[1] / self.exact[1];
+        self.exact = self.exact.map(|v| v * scale);
+        self.sampled = self.sampled.map(|v| v * scale);
+        self
+    }
+}
+
+/// The ΔE00 of a sampling against 1 nm, over many colours.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SpectralError {
+    /// Weighted mean.
+    pub mean: f64,
+    /// 95th percentile.
+    pub p95: f64,
+    /// Largest.
+    pub max: f64,
+    /// The lamp of the largest, as an index.
+    pub lamp: usize,
+    /// The materials of the largest, as indices.
+    pub materials: Vec<usize>,
+}
+
+impl SpectralError {
+    /// The error over a list of colours; zero for none.
+    #[must_use]
+    pub fn over(found: &[Comparison]) -> Self {
+        let mut errors: Vec<(f64, &Comparison)> = found.iter().map(|c| (c.delta_e(), c)).collect();
+        errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let total: f64 = errors.iter().map(|(_, c)| c.weight).sum();
+        let Some(&(max, worst)) = errors.last() else { return Self::default() };
+        if !(total > 0.0) {
+            return Self::default();
+        }
+        let mean = errors.iter().map(|(e, c)| e * c.weight).sum::<f64>() / total;
+        let mut sum = 0.0;
+        let p95 = errors.iter().find(|(_, c)| {
+            sum += c.weight;
+            sum >= 0.95 * total
+        });
+        let p95 = p95.map_or(max, |(e, _)| *e);
+        Self { mean, p95, max, lamp: worst.lamp, materials: worst.materials.clone() }
+    }
+}
+
+/// The colours of products of reflectances, at 1 nm and by a sampling.
+///
+/// Every curve is reduced by itself and the lanes are multiplied, as a renderer does. Only products of known
+/// factors are compared.
+#[must_use]
+pub fn compare(basis: &dyn Basis, products: &Products) -> Vec<Comparison> {
+    let fractions: Vec<_> = products.reflectances.iter().map(|r| basis.reduce(r, Role::Fraction)).collect();
+    let lamps: Vec<_> = (0..products.lamps.len())
+        .map(|lamp| {
+            let light = basis.reduce(&products.lamps[lamp], Role::Emission);
+            (light, basis.to_xyz(lamp), products.weights_of_lamp(lamp))
+        })
+        .collect();
+    products
+        .items
+        .par_iter()
+        .filter_map(|item| {
+            let ([part], Some(factors)) = (item.parts.as_slice(), &item.factors) else { return None };
+            let (light, map, weights) = &lamps[part.lamp];
+            let value = |i: usize| factors.iter().fold(light[i], |v, &m| v * fractions[m][i]);
+            let lanes: Vec<f64> = (0..light.len()).map(value).collect();
+            let dot = |row: &Vec<f64>, values: &[f64]| row.iter().zip(values).map(|(w, v)| w * v).sum();
+            Some(Comparison {
+                exact: weights.each_ref().map(|row| dot(row, &part.filter)),
+                sampled: map.each_ref().map(|row| dot(row, &lanes)),
+                white: item.white,
+                weight: item.weight,
+                lamp: part.lamp,
+                materials: factors.clone(),
+            })
+        })
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{OneNanometre, Uniform};
-    use illuminant_spectrum::{Outside, daylight};
+    use illuminant_spectrum::{Curve, Outside, SpectralRange, daylight};
 
     #[test]
     fn the_reference_has_no_error_and_lines_are_worse_than_daylight() {
@@ -93,11 +126,13 @@ mod tests {
             Outside::Zero,
         )
         .unwrap();
-        let paints = [paint];
-        let exact = spectral_error(&OneNanometre::new(range), range, std::slice::from_ref(&day), &paints);
-        assert!(exact.max < 1e-9);
-        let smooth = spectral_error(&Uniform::new(32, range), range, std::slice::from_ref(&day), &paints);
-        let lines = spectral_error(&Uniform::new(32, range), range, &[day, line], &paints);
+        let products =
+            |lamps: &[Curve]| Products::of_reflectances(range, lamps.to_vec(), &[paint.clone()], 2, 100, 0);
+        let error =
+            |basis: &dyn Basis, lamps: &[Curve]| SpectralError::over(&compare(basis, &products(lamps)));
+        assert!(error(&OneNanometre::new(range), std::slice::from_ref(&day)).max < 1e-9);
+        let smooth = error(&Uniform::new(32, range), std::slice::from_ref(&day));
+        let lines = error(&Uniform::new(32, range), &[day, line]);
         assert!(smooth.max < 0.5 && lines.max > 2.0 && lines.lamp == 1, "{smooth:?} {lines:?}");
     }
 }

@@ -8,12 +8,27 @@
 
 mod basis;
 mod error;
+mod fit;
+mod fitted;
+mod gauss;
+mod hall;
 mod lanes;
+mod nonnegative;
+mod normal_equations;
 mod one_nanometre;
+mod products;
+mod registry;
+mod tristimulus;
 mod uniform;
 
-pub use basis::{Basis, Role, SamplingError, SpectralSampling, ToXyz};
-pub use error::{SpectralError, spectral_error};
+pub use basis::{Basis, Role, ToXyz};
+pub use error::{Comparison, SpectralError, compare};
+pub use fitted::Fitted;
+pub use gauss::{Gauss, XYZ_TO_AC1C2};
+pub use hall::Hall;
 pub use lanes::{LANE_COUNTS, Lanes, lanes_for};
 pub use one_nanometre::OneNanometre;
+pub use products::{Part, Product, Products, seen};
+pub use registry::{Boxes, SAMPLING_NAMES, SamplingError, SpectralSampling};
+pub use tristimulus::{Normalisation, Tristimulus};
 pub use uniform::Uniform;

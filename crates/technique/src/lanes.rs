@@ -1,5 +1,7 @@
 //! A scene in the lanes of one pass.
 
+use crate::passes::Light;
+use crate::wavelength::Wavelength;
 use glam::Vec3;
 use illuminant_illumination::{Index, Prepare, REPRESENTATIVE_NM, Surface};
 use illuminant_sampling::{Basis, Lanes, Role};
@@ -14,13 +16,30 @@ struct IndexLanes<const N: usize> {
     lanes: Lanes<N>,
 }
 
+/// The wavelength of its own that a path carries, where it is of this pass.
+#[derive(Clone, Copy, Debug)]
+pub struct Companion {
+    /// Its lane.
+    pub lane: usize,
+    /// The sample of the basis that stands for its part of the spectrum.
+    pub stand_in: usize,
+    /// The width of the spectrum that the wavelength stands for, as a fraction of that for which the sample stands.
+    pub share: f32,
+}
+
 /// All that depends on wavelength, for the samples of one pass: materials as the model `M` wants them, media, lamps.
 #[derive(Debug)]
 pub struct Pass<const N: usize, M> {
     /// Which samples of the basis the lanes are.
     pub samples: Range<usize>,
-    /// How many samples the basis has in all.
+    /// How many samples a path carries in all.
     pub total: usize,
+    /// The wavelength of its own that a path carries, if it is of this pass.
+    pub companion: Option<Companion>,
+    /// The sample that is that wavelength.
+    pub carried: Option<usize>,
+    /// The first bundle of light that has been dispersed; the bundles before it hold the light that has not.
+    pub dispersed: Option<usize>,
     /// The materials.
     pub materials: Vec<M>,
     /// The spectra of the lamps.
@@ -30,18 +49,26 @@ pub struct Pass<const N: usize, M> {
     vacuum: IndexLanes<N>,
     indices: Vec<IndexLanes<N>>,
     absorption: Vec<Option<Lanes<N>>>,
-    /// For each group of lamps, the rows of the map to XYZ.
+    /// For each bundle the rows of the map to XYZ: one bundle a group of lamps, and as many more for dispersed light.
     pub to_xyz: Vec<[Lanes<N>; 3]>,
 }
 
 impl<const N: usize, M: Prepare> Pass<N, M> {
     /// Reduces a scene to the samples of a pass. `groups` gives one lamp for each group of lamps that share a map.
-    pub fn new(scene: &Scene, basis: &dyn Basis, samples: Range<usize>, groups: &[usize]) -> Self {
+    pub(crate) fn new(
+        scene: &Scene,
+        brightness: &[f32],
+        basis: &dyn Basis,
+        samples: Range<usize>,
+        groups: &[usize],
+        companion: Option<Wavelength>,
+        light: Light,
+    ) -> Self {
         let range = scene.range;
         let lanes = |values: &[f64]| Lanes::<N>::from_slice(&values[samples.clone()]);
         let vacuum = IndexLanes { mean: 1.0, least: 1.0, lanes: Lanes::splat(1.0) };
         let indices = scene.materials.iter().map(|material| match &material.surface {
-            Surface::Dielectric { n, dispersion: true, .. } => IndexLanes {
+            Surface::Dielectric { n, dispersion: true, .. } if basis.is_spectral() => IndexLanes {
                 mean: n.at(REPRESENTATIVE_NM) as f32,
                 least: n.extent(range).0 as f32,
                 lanes: {
@@ -62,18 +89,44 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
             Surface::Dielectric { absorption: Some(a), .. } => Some(lanes(&basis.reduce(a, Role::Constant))),
             _ => None,
         });
+        let mut to_xyz: Vec<[Lanes<N>; 3]> =
+            groups.iter().map(|&lamp| basis.to_xyz(lamp).each_ref().map(|row| lanes(row))).collect();
+        // Under unit light paths end where they would be dispersed: no sample goes on.
+        let carried = match light {
+            Light::Lamps => companion.map(|_| basis.len() - 1),
+            Light::Unit => Some(usize::MAX),
+        };
+        if let (Some(wavelength), Some(own)) = (companion, carried) {
+            let map = wavelength.to_xyz(own);
+            to_xyz.extend(groups.iter().map(|_| map.each_ref().map(|row| lanes(row))));
+        }
+        let emission = scene.lamps.iter().map(|lamp| match light {
+            Light::Lamps => lanes(&basis.reduce(&lamp.spectrum, Role::Emission)),
+            Light::Unit => lanes(&vec![1.0; basis.len()]),
+        });
         let span = range.width_nm() - 1.0;
         let position: Vec<f64> =
             (0..basis.len()).map(|i| (basis.wavelength_nm(i) - f64::from(range.min_nm)) / span).collect();
         Self {
-            materials: scene.materials.iter().map(|m| M::prepare(m, basis, samples.clone(), range)).collect(),
-            emission: scene.lamps.iter().map(|l| lanes(&basis.reduce(&l.spectrum, Role::Emission))).collect(),
+            materials: scene
+                .materials
+                .iter()
+                .zip(brightness)
+                .map(|(material, &b)| M::prepare(material, b, basis, samples.clone(), range))
+                .collect(),
+            emission: emission.collect(),
             position: lanes(&position),
             vacuum,
             indices: indices.collect(),
             absorption: absorption.collect(),
-            to_xyz: groups.iter().map(|&lamp| basis.to_xyz(lamp).each_ref().map(|row| lanes(row))).collect(),
+            to_xyz,
             total: basis.len(),
+            companion: companion.zip(carried).filter(|(_, own)| samples.contains(own)).map(|(w, own)| {
+                let (stand_in, width_nm) = stand_in(basis, own, w.nm, scene);
+                Companion { lane: own - samples.start, stand_in, share: (w.width_nm / width_nm) as f32 }
+            }),
+            carried,
+            dispersed: companion.map(|_| groups.len()),
             samples,
         }
     }
@@ -108,4 +161,32 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
     pub fn lane(&self, sample: usize) -> Option<usize> {
         self.samples.contains(&sample).then(|| sample - self.samples.start)
     }
+}
+
+impl<const N: usize, M> Pass<N, M> {
+    /// The samples of the basis that are of this pass: without the wavelength of a path's own.
+    #[inline(always)]
+    pub fn own_samples(&self) -> Range<usize> {
+        let end = self.carried.map_or(self.samples.end, |own| self.samples.end.min(own));
+        self.samples.start..end
+    }
+}
+
+/// Of the first `own` samples the one nearest to a wavelength, and the width of the spectrum, nm, that is nearest to it.
+fn stand_in(basis: &dyn Basis, own: usize, nm: f64, scene: &Scene) -> (usize, f64) {
+    let mut order: Vec<usize> = (0..own).collect();
+    order.sort_by(|&a, &b| basis.wavelength_nm(a).total_cmp(&basis.wavelength_nm(b)));
+    let at = |i: usize| basis.wavelength_nm(order[i]);
+    let place = (1..own).find(|&i| f64::midpoint(at(i - 1), at(i)) > nm).unwrap_or(own) - 1;
+    let low = if place == 0 {
+        f64::from(scene.range.min_nm) - 0.5
+    } else {
+        f64::midpoint(at(place - 1), at(place))
+    };
+    let high = if place + 1 == own {
+        f64::from(scene.range.max_nm) + 0.5
+    } else {
+        f64::midpoint(at(place), at(place + 1))
+    };
+    (order[place], (high - low).max(1e-3))
 }

@@ -137,6 +137,8 @@ struct State<const N: usize> {
     media: Media,
     /// The sample that is left after a dispersive refraction.
     hero: Option<usize>,
+    /// The first of the bundles that take the light: those of dispersed light are others.
+    bundle: usize,
     /// Where the last direction was drawn, with which normal and density; `None` after a discrete lobe or the camera.
     origin: Option<(Vec3, Vec3, f32)>,
     /// Where the next vertex looks on a lamp.
@@ -168,6 +170,7 @@ impl PathTracer {
             brightness: 1.0,
             media: Media::default(),
             hero: None,
+            bundle: 0,
             origin: None,
             u_lamp,
         };
@@ -189,7 +192,7 @@ impl PathTracer {
                 object.lamp.filter(|&l| scene.lamps[l].emits(point.geometric_normal, path.ray.direction))
             {
                 let weight = self.weight_of_hit(scene, &path, lamp, &hit, &point);
-                radiance[group_of[lamp]] += path.throughput * pass.emission[lamp] * weight;
+                radiance[path.bundle + group_of[lamp]] += path.throughput * pass.emission[lamp] * weight;
                 primary.emits |= segment == 1;
             }
             if segment == 1 {
@@ -265,8 +268,11 @@ impl PathTracer {
                 probe,
             );
         }
-        // The sample that a dispersive refraction here would keep.
-        let hero_sample = ((u_hero * pass.total as f32) as usize).min(pass.total - 1);
+        // The sample that a dispersive refraction here would keep: the path's own wavelength, or any of `1nm`.
+        let (hero_sample, factor) = match pass.carried {
+            Some(own) => (own, 1.0),
+            None => (((u_hero * pass.total as f32) as usize).min(pass.total - 1), pass.total as f32),
+        };
         let hero_lane = pass.lane(path.hero.unwrap_or(hero_sample));
         let Some(drawn) = model.sample(&at, [u, v, u_lobe], hero_lane) else { return false };
         let direction = frame.to_world(drawn.direction);
@@ -280,7 +286,8 @@ impl PathTracer {
         if drawn.disperses {
             let Some(lane) = hero_lane else { return false };
             path.hero = Some(hero_sample);
-            path.throughput = path.throughput.only(lane, pass.total as f32);
+            path.throughput = path.throughput.only(lane, factor);
+            path.bundle = pass.dispersed.unwrap_or(0);
         }
         if drawn.transmitted {
             path.media = beyond;
@@ -358,7 +365,7 @@ impl PathTracer {
         if let Some(kept) = pass.transmittance(medium.innermost(), span.length().min(f32::MAX)) {
             arriving *= kept;
         }
-        radiance[group_of[lamp]] += arriving;
+        radiance[path.bundle + group_of[lamp]] += arriving;
     }
 
     /// How much a lamp counts that a drawn direction has met, beside being asked directly.
@@ -396,7 +403,7 @@ impl PathTracer {
                 _ => 1.0,
             };
             let light = pass.surroundings(scene, lamp, path.ray.direction);
-            radiance[group_of[lamp]] += path.throughput * light * weight;
+            radiance[path.bundle + group_of[lamp]] += path.throughput * light * weight;
         }
     }
 }

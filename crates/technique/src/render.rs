@@ -2,12 +2,12 @@
 
 use crate::film::{Film, TOO_LARGE, TileFilm};
 use crate::filter::FilterSampler;
-use crate::lanes::Pass;
-use crate::path::{Counts, PathTracer, Primary, Probe, Query, Recorder, Vertex};
-use crate::sequence::Sequence;
+use crate::passes::{Job, Light, Replay, TileCounts, TileRenderer, group_lamps, renderer};
+use crate::path::Query;
+use crate::scene_products::{products, spectral_error};
 use crate::settings::{Layer, Settings, Technique};
-use illuminant_illumination::{General, Illumination, IlluminationModel, Prepare};
-use illuminant_sampling::{Basis, Lanes, SamplingError, SpectralSampling, lanes_for};
+use illuminant_illumination::Illumination;
+use illuminant_sampling::{Basis, SamplingError, SpectralError, SpectralSampling};
 use illuminant_scene::Scene;
 use illuminant_spectrum::{Curve, Observer};
 use rayon::prelude::*;
@@ -90,197 +90,6 @@ impl Progress {
     }
 }
 
-/// What a tile needs to know; generic code hides behind [`TileRenderer`].
-struct Job {
-    scene: Arc<Scene>,
-    settings: Settings,
-    filter: FilterSampler,
-    plan: Vec<crate::film::LayerPlan>,
-    channels: usize,
-    group_of: Vec<usize>,
-    albedo: Vec<[f32; 3]>,
-}
-
-#[derive(Default)]
-struct TileCounts {
-    counts: Counts,
-    samples: u64,
-    dropped: Vec<([u32; 2], u64)>,
-}
-
-trait TileRenderer: Send + Sync {
-    fn tile(&self, job: &Job, tile: &mut TileFilm, samples: Range<u64>) -> TileCounts;
-    fn replay(&self, job: &Job, pixel: [u32; 2], sample: u64) -> Replay;
-}
-
-/// A path followed again.
-#[derive(Clone, Debug, Default)]
-pub struct Replay {
-    /// The vertices of each pass.
-    pub passes: Vec<Vec<Vertex>>,
-    /// XYZ of the sample.
-    pub xyz: [f32; 3],
-    /// Its spectral samples.
-    pub spectrum: Vec<f32>,
-    /// The ray queries that it asked.
-    pub queries: Vec<Query>,
-}
-
-/// The passes of a sampling in bundles of N lanes, through the model M.
-struct Passes<const N: usize, M> {
-    tracer: PathTracer,
-    passes: Vec<Pass<N, M>>,
-}
-
-impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
-    fn new(scene: &Scene, basis: &dyn Basis, depth: Option<u32>, groups: &[usize]) -> Self {
-        let total = basis.len();
-        let ranges = (0..total.div_ceil(N)).map(|i| i * N..((i + 1) * N).min(total));
-        let passes = ranges.map(|samples| Pass::new(scene, basis, samples, groups)).collect();
-        Self { tracer: PathTracer { depth: depth.unwrap_or(u32::MAX) }, passes }
-    }
-
-    /// Follows one sample through all passes; `each` gets what every pass brought.
-    #[inline(always)]
-    fn sample<P: Probe>(
-        &self,
-        job: &Job,
-        pixel: [u32; 2],
-        sample: u64,
-        radiance: &mut [Lanes<N>],
-        probe: &mut P,
-        mut each: impl FnMut(&Pass<N, M>, &[Lanes<N>], &mut P),
-    ) -> Primary {
-        let [x, y] = pixel;
-        let replicates = u64::from(job.settings.replicates.max(1));
-        let stream = u64::from(y) << 32 | u64::from(x);
-        let mut sequence = Sequence::new(job.settings.seed, stream, sample / replicates, sample % replicates);
-        let [u, v, u_lamp @ ..] = sequence.next4();
-        let [open, close] = job.scene.camera.shutter;
-        let u_time = if close > open { sequence.next4()[0] } else { 0.0 };
-        let (fx, fy) = (job.filter.offset(u), job.filter.offset(v));
-        let ray = job.scene.camera.ray(x as f32 + 0.5 + fx, y as f32 + 0.5 + fy, u_time);
-        let mut primary = Primary::default();
-        for pass in &self.passes {
-            radiance.fill(Lanes::default());
-            primary =
-                self.tracer.trace(&job.scene, pass, &job.group_of, ray, sequence, u_lamp, radiance, probe);
-            each(pass, radiance, probe);
-        }
-        primary
-    }
-}
-
-#[inline(always)]
-fn add_xyz<const N: usize, M>(pass: &Pass<N, M>, radiance: &[Lanes<N>], xyz: &mut [f32; 3]) -> bool {
-    let mut sound = true;
-    for (light, rows) in radiance.iter().zip(&pass.to_xyz) {
-        sound &= light.is_radiance();
-        for (sum, row) in xyz.iter_mut().zip(rows) {
-            *sum += light.dot(row);
-        }
-    }
-    sound
-}
-
-impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<N, M> {
-    fn tile(&self, job: &Job, tile: &mut TileFilm, samples: Range<u64>) -> TileCounts {
-        let mut result = TileCounts::default();
-        let missing = tile.claim(samples);
-        let groups = self.passes.first().map_or(0, |pass| pass.to_xyz.len());
-        let mut radiance = vec![Lanes::<N>::default(); groups];
-        let mut values = vec![0.0f32; job.channels];
-        let plain = job.plan.len() == 1;
-        let [x0, y0, ..] = tile.area;
-        for i in 0..tile.samples.len() {
-            let pixel = [x0 + i as u32 % tile.width(), y0 + i as u32 / tile.width()];
-            for sample in missing.iter().cloned().flatten() {
-                result.samples += 1;
-                let mut xyz = [0.0f32; 3];
-                let mut sound = true;
-                if !plain {
-                    values.fill(0.0);
-                }
-                let primary =
-                    self.sample(job, pixel, sample, &mut radiance, &mut result.counts, |pass, light, _| {
-                        sound &= add_xyz(pass, light, &mut xyz);
-                        if !plain {
-                            spectral_layers(job, pass, light, &mut values);
-                        }
-                    });
-                values[..3].copy_from_slice(&xyz);
-                if !plain {
-                    auxiliary_layers(job, &primary, sample, &mut values);
-                }
-                // Every channel, not XYZ alone: a lane in the infrared may be vast where its XYZ is nothing.
-                if sound && values.iter().all(|v| v.abs() < TOO_LARGE) {
-                    tile.add(i, &values);
-                } else {
-                    result.dropped.push((pixel, sample));
-                }
-            }
-        }
-        result
-    }
-
-    fn replay(&self, job: &Job, pixel: [u32; 2], sample: u64) -> Replay {
-        let groups = self.passes.first().map_or(0, |pass| pass.to_xyz.len());
-        let mut radiance = vec![Lanes::<N>::default(); groups];
-        let (mut passes, mut xyz, mut spectrum, mut queries) = (Vec::new(), [0.0; 3], Vec::new(), Vec::new());
-        self.sample(job, pixel, sample, &mut radiance, &mut Recorder::default(), |pass, light, recorder| {
-            add_xyz(pass, light, &mut xyz);
-            let sum = light.iter().fold(Lanes::default(), |sum: Lanes<N>, r| sum + *r);
-            spectrum.extend_from_slice(&sum.0[..pass.samples.len()]);
-            passes.push(std::mem::take(&mut recorder.vertices));
-            queries.append(&mut recorder.queries);
-        });
-        Replay { passes, xyz, spectrum, queries }
-    }
-}
-
-/// The layers that come from lanes: each lamp by itself, and the lanes themselves.
-fn spectral_layers<const N: usize, M>(job: &Job, pass: &Pass<N, M>, light: &[Lanes<N>], values: &mut [f32]) {
-    let mut lamp = 0;
-    for layer in &job.plan {
-        match layer.layer {
-            Layer::Lamps => {
-                let group = job.group_of[lamp];
-                lamp += 1;
-                for (slot, row) in values[layer.channels.clone()].iter_mut().zip(&pass.to_xyz[group]) {
-                    *slot += light[group].dot(row);
-                }
-            }
-            Layer::Spectra => {
-                let channels = &mut values[layer.channels.clone()][pass.samples.clone()];
-                for light in light {
-                    for (slot, v) in channels.iter_mut().zip(&light.0) {
-                        *slot += v;
-                    }
-                }
-            }
-            _ => {}
-        }
-    }
-}
-
-/// The layers that come from what the camera sees first, and the halves.
-fn auxiliary_layers(job: &Job, primary: &Primary, sample: u64, values: &mut [f32]) {
-    let y = values[1];
-    for layer in &job.plan {
-        let slots = &mut values[layer.channels.clone()];
-        match (layer.layer, primary.surface) {
-            (Layer::Halves, _) if sample % 2 == 1 => slots.copy_from_slice(&[y, 1.0]),
-            (Layer::Depth, Some((distance, ..))) => slots.copy_from_slice(&[distance, 1.0]),
-            (Layer::Normal, Some((.., normal))) => slots.copy_from_slice(&normal.to_array()),
-            (Layer::Albedo, Some((_, object, _))) => {
-                slots.copy_from_slice(&job.albedo[job.scene.objects[object as usize].material]);
-            }
-            (Layer::Emission, _) => slots[0] = f32::from(u8::from(primary.emits)),
-            _ => {}
-        }
-    }
-}
-
 /// A render under way: runs follow each other, and the film accumulates.
 pub struct Render {
     job: Job,
@@ -318,7 +127,7 @@ impl Render {
         if scene.lamps.is_empty() {
             return Err(RenderError::NoLight);
         }
-        let basis = sampling.basis(scene.range);
+        let basis = sampling.basis(scene.range, &|| products(&scene, &settings))?;
         let by_lamp = settings.layers.contains(&Layer::Lamps);
         let (groups, group_of) = group_lamps(&*basis, scene.lamps.len(), by_lamp);
         let names: Vec<String> = scene.lamps.iter().map(|lamp| lamp.name.clone()).collect();
@@ -327,7 +136,8 @@ impl Render {
             .num_threads(settings.threads)
             .build()
             .map_err(|e| RenderError::Setting(format!("no threads can be started: {e}")))?;
-        let renderer = renderer(&scene, &*basis, &settings, technique, illumination, &groups)?;
+        let (Technique::Path, Illumination::General) = (technique, illumination);
+        let renderer = renderer(&scene, &*basis, settings.depth, &groups, Light::Lamps)?;
         let white = Observer::cie_1931_2deg().xyz(&Curve::constant(1.0), scene.range);
         let albedo = scene.materials.iter().map(|material| {
             let reflectance = material.representative_reflectance(scene.range);
@@ -455,6 +265,18 @@ impl Render {
         &self.statistics
     }
 
+    /// What the spectral sampling costs in colour in this scene (CIEDE2000 against 1 nm), measured on paths of its own.
+    #[must_use]
+    pub fn spectral_error(&self) -> SpectralError {
+        spectral_error(&self.job.scene, &self.job.settings, &*self.basis)
+    }
+
+    /// Sentences on what the user should know before rendering this scene with this sampling.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        crate::warnings::warnings(&self.job.scene, &*self.basis, &self.job.settings.sampling)
+    }
+
     /// The spectral sampling.
     #[must_use]
     pub fn basis(&self) -> &dyn Basis {
@@ -465,46 +287,5 @@ impl Render {
     #[must_use]
     pub fn scene(&self) -> &Arc<Scene> {
         &self.job.scene
-    }
-}
-
-/// Lamps that share a map to XYZ share a bundle, unless each is wanted by itself: a lamp for each group, and the group
-/// of each lamp.
-fn group_lamps(basis: &dyn Basis, lamps: usize, by_lamp: bool) -> (Vec<usize>, Vec<usize>) {
-    let mut groups: Vec<usize> = Vec::new();
-    let mut maps: Vec<illuminant_sampling::ToXyz> = Vec::new();
-    let mut group_of = Vec::with_capacity(lamps);
-    for lamp in 0..lamps {
-        let map = basis.to_xyz(lamp);
-        let shared = maps.iter().position(|m| !by_lamp && *m == map);
-        group_of.push(shared.unwrap_or(groups.len()));
-        if shared.is_none() {
-            groups.push(lamp);
-            maps.push(map);
-        }
-    }
-    (groups, group_of)
-}
-
-/// The one place where lane-generic code is instantiated.
-fn renderer(
-    scene: &Scene,
-    basis: &dyn Basis,
-    settings: &Settings,
-    technique: Technique,
-    illumination: Illumination,
-    groups: &[usize],
-) -> Result<Box<dyn TileRenderer>, RenderError> {
-    let (Technique::Path, Illumination::General) = (technique, illumination);
-    let depth = settings.depth;
-    match lanes_for(basis.len()).unwrap_or(32) {
-        8 => Ok(Box::new(Passes::<8, General<8>>::new(scene, basis, depth, groups))),
-        #[cfg(not(feature = "only-8-lanes"))]
-        4 => Ok(Box::new(Passes::<4, General<4>>::new(scene, basis, depth, groups))),
-        #[cfg(not(feature = "only-8-lanes"))]
-        16 => Ok(Box::new(Passes::<16, General<16>>::new(scene, basis, depth, groups))),
-        #[cfg(not(feature = "only-8-lanes"))]
-        32 => Ok(Box::new(Passes::<32, General<32>>::new(scene, basis, depth, groups))),
-        other => Err(RenderError::Setting(format!("bundles of {other} lanes are not compiled in"))),
     }
 }

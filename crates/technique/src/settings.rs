@@ -67,7 +67,7 @@ pub struct Settings {
     pub technique: String,
     /// `general`.
     pub illumination: String,
-    /// `uniform:N` or `1nm`.
+    /// The spectral sampling: `fitted:8`, `1nm` …
     pub sampling: String,
     /// The longest path in segments: 1 shows lamps only, 2 direct light; none is no limit.
     pub depth: Option<u32>,
@@ -90,7 +90,7 @@ impl Default for Settings {
         Self {
             technique: Technique::default().to_string(),
             illumination: illuminant_illumination::Illumination::default().to_string(),
-            sampling: "uniform:32".into(),
+            sampling: "fitted:8".into(),
             depth: None,
             seed: 0,
             threads: 0,

@@ -62,7 +62,7 @@ def render(
         typer.Option(
             "--sampling",
             metavar="NAME",
-            help="How wavelengths are carried: uniform:N, N up to 32, or 1nm, the reference (uniform:32).",
+            help="How wavelengths are carried: fitted:N, uniform:N, hall:N, meyer, rgb, xyz, 1nm … (fitted:8).",
         ),
     ] = None,
     size: Annotated[

@@ -1,0 +1,284 @@
+//! The normal equations of a fit: how well weights on a few wavelengths reproduce the colours of products.
+
+use crate::Products;
+use crate::nonnegative::least_squares;
+use illuminant_color::{Triple, delta_e_2000_metric};
+use nalgebra::{Cholesky, DMatrix, DVector, Matrix3, Vector3};
+use rayon::prelude::*;
+
+/// How strongly the colour of the bare lamp is held, beside all products together: it comes out exact.
+const HOLD_WHITE: f64 = 1e6;
+
+/// A symmetric 3 × 3 matrix: xx, xy, xz, yy, yz, zz.
+type Symmetric = [f64; 6];
+
+/// Where in a [`Symmetric`] the element (a, b) stands.
+const AT: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
+
+/// What a fit knows of the lamps of one relative spectrum: one row for each product that their light makes.
+pub(crate) struct Side {
+    /// Numbers of the lamps, all of one relative spectrum.
+    pub lamps: Vec<usize>,
+    /// XYZ of the spectrum with Y = 1.
+    pub white: Triple,
+    /// For each nm, what is left of the light there in each row, as luminance of the bare lamp.
+    features: Vec<Vec<f64>>,
+    /// XYZ of each row, integrated at 1 nm.
+    targets: Vec<Triple>,
+    /// The metric of colour difference of each row.
+    metrics: Vec<Symmetric>,
+    /// The product that each row belongs to.
+    pub items: Vec<usize>,
+}
+
+/// The metric in which a product is fitted: as it is exposed, and as if it were lit to half the white, so that dark
+/// products count too.
+fn metric(xyz: Triple, white: Triple) -> Symmetric {
+    let exposed = delta_e_2000_metric(xyz, white);
+    let scale = 0.5 * white[1] / xyz[1].max(1e-6 * white[1]);
+    let lit = delta_e_2000_metric(xyz.map(|v| v * scale), white);
+    let mut sum = [0.0; 6];
+    for a in 0..3 {
+        for b in a..3 {
+            sum[AT[a][b]] = exposed[a][b] + scale * scale * lit[a][b];
+        }
+    }
+    sum
+}
+
+/// δᵀ G δ.
+pub(crate) fn quadratic(g: &Symmetric, d: Triple) -> f64 {
+    (0..3).map(|a| (0..3).map(|b| d[a] * g[AT[a][b]] * d[b]).sum::<f64>()).sum()
+}
+
+impl Side {
+    /// The sides of all products: lamps of one relative spectrum share one.
+    pub fn all(products: &Products) -> Vec<Self> {
+        let luminance: Vec<f64> = (0..products.lamps.len()).map(|l| products.xyz_of_lamp(l)[1]).collect();
+        let mut sides: Vec<Self> = Vec::new();
+        let mut side_of = vec![None; products.lamps.len()];
+        let mut relative: Vec<Vec<f64>> = Vec::new();
+        for lamp in 0..products.lamps.len() {
+            if luminance[lamp] <= 0.0 {
+                continue;
+            }
+            let table: Vec<f64> =
+                products.lamps[lamp].tabulate(products.range).iter().map(|v| v / luminance[lamp]).collect();
+            let peak = table.iter().copied().fold(0.0, f64::max);
+            let same = |other: &Vec<f64>| other.iter().zip(&table).all(|(a, b)| (a - b).abs() < 1e-9 * peak);
+            let side = relative.iter().position(same).unwrap_or_else(|| {
+                relative.push(table);
+                let white = products.xyz_of_lamp(lamp).map(|v| v / luminance[lamp]);
+                sides.push(Self::empty(white, products.range.len()));
+                sides.len() - 1
+            });
+            sides[side].lamps.push(lamp);
+            side_of[lamp] = Some(side);
+        }
+        let weights: Vec<[Vec<f64>; 3]> =
+            (0..products.lamps.len()).map(|lamp| products.weights_of_lamp(lamp)).collect();
+        for (item, product) in products.items.iter().enumerate() {
+            let found: Vec<Triple> = product
+                .parts
+                .iter()
+                .map(|part| {
+                    weights[part.lamp]
+                        .each_ref()
+                        .map(|w| w.iter().zip(&part.filter).map(|(w, f)| w * f).sum())
+                })
+                .collect();
+            let total = std::array::from_fn(|a| found.iter().map(|xyz: &Triple| xyz[a]).sum());
+            let metric = metric(total, product.white);
+            for (part, xyz) in product.parts.iter().zip(found) {
+                if let Some(side) = side_of[part.lamp] {
+                    sides[side].push(item, &part.filter, luminance[part.lamp], xyz, metric);
+                }
+            }
+        }
+        sides
+    }
+
+    fn empty(white: Triple, wavelengths: usize) -> Self {
+        Self {
+            lamps: Vec::new(),
+            white,
+            features: vec![Vec::new(); wavelengths],
+            targets: Vec::new(),
+            metrics: Vec::new(),
+            items: Vec::new(),
+        }
+    }
+
+    fn push(&mut self, item: usize, filter: &[f64], luminance: f64, xyz: Triple, metric: Symmetric) {
+        for (column, f) in self.features.iter_mut().zip(filter) {
+            column.push(luminance * f);
+        }
+        self.targets.push(xyz);
+        self.metrics.push(metric);
+        self.items.push(item);
+    }
+
+    /// What the weights miss in each row: sampled minus exact XYZ.
+    pub fn residuals(&self, wavelengths: &[usize], weights: &[Vec<f64>; 3]) -> Vec<Triple> {
+        let mut found: Vec<Triple> = self.targets.iter().map(|t| t.map(|v| -v)).collect();
+        for (i, &w) in wavelengths.iter().enumerate() {
+            for (xyz, f) in found.iter_mut().zip(&self.features[w]) {
+                for (sum, row) in xyz.iter_mut().zip(weights) {
+                    *sum += row[i] * f;
+                }
+            }
+        }
+        found
+    }
+
+    /// The metric of a row.
+    pub fn metric(&self, row: usize) -> &Symmetric {
+        &self.metrics[row]
+    }
+}
+
+/// The normal equations over a list of candidate wavelengths, in blocks of 3 × 3 (X, Y, Z).
+pub(crate) struct Normal {
+    /// The block of each pair of candidates, whole matrix.
+    pairs: Vec<Symmetric>,
+    right: Vec<Triple>,
+    candidates: usize,
+}
+
+impl Normal {
+    /// The equations of one side, each product counted `importance` times.
+    pub fn new(side: &Side, importance: &[f64], candidates: &[usize]) -> Self {
+        let of_row = |row: usize| importance[side.items[row]];
+        let rows = side.targets.len();
+        // ω G, by element, so that the sums below run over memory in order.
+        let weighted: Vec<Vec<f64>> =
+            (0..6).map(|e| (0..rows).map(|r| of_row(r) * side.metrics[r][e]).collect()).collect();
+        let total: f64 = (0..rows).map(of_row).sum();
+        let hold = side.white.map(|w| HOLD_WHITE * total / (w * w));
+        let n = candidates.len();
+        let lines: Vec<Vec<Symmetric>> = (0..n)
+            .into_par_iter()
+            .map(|i| {
+                let left = &side.features[candidates[i]];
+                (i..n).map(|j| block(left, &side.features[candidates[j]], &weighted, hold)).collect()
+            })
+            .collect();
+        let mut pairs = vec![[0.0; 6]; n * n];
+        for (i, line) in lines.iter().enumerate() {
+            for (j, block) in (i..n).zip(line) {
+                pairs[i * n + j] = *block;
+                pairs[j * n + i] = *block;
+            }
+        }
+        let pulled: Vec<Triple> = (0..rows)
+            .map(|r| {
+                let t = side.targets[r];
+                std::array::from_fn(|a| (0..3).map(|b| weighted[AT[a][b]][r] * t[b]).sum())
+            })
+            .collect();
+        let right = candidates
+            .iter()
+            .map(|&w| {
+                let mut sum: Triple = std::array::from_fn(|a| hold[a] * side.white[a]);
+                for (f, pull) in side.features[w].iter().zip(&pulled) {
+                    for (s, p) in sum.iter_mut().zip(pull) {
+                        *s += f * p;
+                    }
+                }
+                sum
+            })
+            .collect();
+        Self { pairs, right, candidates: n }
+    }
+
+    fn block(&self, i: usize, j: usize) -> Matrix3<f64> {
+        let s = &self.pairs[i * self.candidates + j];
+        Matrix3::from_fn(|a, b| s[AT[a][b]])
+    }
+
+    fn right(&self, i: usize) -> Vector3<f64> {
+        Vector3::from(self.right[i])
+    }
+
+    /// The matrix and the right side for a set of candidates, with a trace of regularisation.
+    fn system(&self, set: &[usize]) -> (DMatrix<f64>, DVector<f64>) {
+        let n = 3 * set.len();
+        let mut a = DMatrix::from_fn(n, n, |r, c| {
+            self.pairs[set[r / 3] * self.candidates + set[c / 3]][AT[r % 3][c % 3]]
+        });
+        let trace = 1e-12 * a.trace() / n.max(1) as f64;
+        for i in 0..n {
+            a[(i, i)] += trace;
+        }
+        (a, DVector::from_fn(n, |r, _| self.right[set[r / 3]][r % 3]))
+    }
+
+    /// The best non-negative weights on a set, as rows X, Y, Z, and how much of the error they take away.
+    pub fn nonnegative(&self, set: &[usize]) -> ([Vec<f64>; 3], f64) {
+        let (a, b) = self.system(set);
+        let (x, gain) = least_squares(&a, &b);
+        ([0, 1, 2].map(|row| (0..set.len()).map(|i| x[3 * i + row]).collect()), gain)
+    }
+
+    /// How much of the error is taken away by the best weights of any sign on `set` and one candidate more, for each
+    /// candidate: by the Schur complement of the set.
+    pub fn gains(&self, set: &[usize]) -> Vec<f64> {
+        let (a, b) = self.system(set);
+        let n = b.len();
+        let factor = Cholesky::new(a);
+        let solved = factor.as_ref().map(|f| f.l().solve_lower_triangular(&b).unwrap_or_else(|| b.clone()));
+        let base = solved.as_ref().map_or(0.0, |s| s.dot(s));
+        let lower = factor.as_ref().map(Cholesky::l);
+        (0..self.candidates)
+            .map(|candidate| {
+                if set.contains(&candidate) {
+                    return f64::NEG_INFINITY;
+                }
+                let own = self.block(candidate, candidate);
+                let mut schur = own;
+                let mut residual = self.right(candidate);
+                if let (Some(l), Some(s)) = (&lower, &solved) {
+                    let mut cross = DMatrix::zeros(n, 3);
+                    for (k, &i) in set.iter().enumerate() {
+                        cross.fixed_view_mut::<3, 3>(3 * k, 0).copy_from(&self.block(i, candidate));
+                    }
+                    if !l.solve_lower_triangular_mut(&mut cross) {
+                        return f64::NEG_INFINITY;
+                    }
+                    schur -= Matrix3::from_iterator((cross.transpose() * &cross).iter().copied());
+                    residual -= Vector3::from_iterator((cross.transpose() * s).iter().copied());
+                }
+                schur += Matrix3::identity() * (1e-9 * own.trace());
+                let step = schur.cholesky().map_or(0.0, |c| residual.dot(&c.solve(&residual)));
+                base + step
+            })
+            .collect()
+    }
+}
+
+/// Σ ω G rᵢ rⱼ over the rows, and the hold on the white.
+fn block(left: &[f64], right: &[f64], weighted: &[Vec<f64>], hold: Triple) -> Symmetric {
+    let [g0, g1, g2, g3, g4, g5] = std::array::from_fn(|e| weighted[e].as_slice());
+    let mut partial = [[0.0f64; 4]; 6];
+    let rows = left.len();
+    let whole = rows / 4 * 4;
+    for r in (0..whole).step_by(4) {
+        let t: [f64; 4] = std::array::from_fn(|k| left[r + k] * right[r + k]);
+        for (sums, g) in partial.iter_mut().zip([g0, g1, g2, g3, g4, g5]) {
+            for k in 0..4 {
+                sums[k] = g[r + k].mul_add(t[k], sums[k]);
+            }
+        }
+    }
+    for r in whole..rows {
+        let t = left[r] * right[r];
+        for (sums, g) in partial.iter_mut().zip([g0, g1, g2, g3, g4, g5]) {
+            sums[0] += g[r] * t;
+        }
+    }
+    let mut sum = partial.map(|p| (p[0] + p[1]) + (p[2] + p[3]));
+    for (a, h) in hold.iter().enumerate() {
+        sum[AT[a][a]] += h;
+    }
+    sum
+}

@@ -1,0 +1,210 @@
+//! What a scene's light becomes on its way: the spectra on which a sampling is fitted and judged.
+
+use illuminant_color::Triple;
+use illuminant_spectrum::{Curve, LUMINOUS_EFFICACY, Observer, SpectralRange};
+
+/// The light of one lamp after all that a path did to it.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Number of the lamp in [`Products::lamps`].
+    pub lamp: usize,
+    /// What is left of its spectrum at each nm of [`Products::range`]: the product of the reflectances that a path met,
+    /// times a number, or a sum of such products.
+    pub filter: Vec<f64>,
+}
+
+/// A colour that a scene can show.
+#[derive(Clone, Debug)]
+pub struct Product {
+    /// The light that it is made of, by lamp.
+    pub parts: Vec<Part>,
+    /// XYZ of the white beside which it is seen, in the unit of the products.
+    pub white: Triple,
+    /// How much it counts in a mean.
+    pub weight: f64,
+    /// The numbers in [`Products::reflectances`] of those whose product its filter is; `None` for what a path gathered.
+    pub factors: Option<Vec<usize>>,
+}
+
+/// Lamps, and what becomes of their light.
+///
+/// Only wavelengths that the observer sees matter to a colour, so the filters are known there and nowhere else.
+///
+/// ```
+/// use illuminant_sampling::Products;
+/// use illuminant_spectrum::{Curve, Outside, SpectralRange, daylight};
+/// let day = daylight(6504.0).unwrap();
+/// let paint = Curve::new(vec![400.0, 700.0], vec![0.1, 0.7], Outside::Hold).unwrap();
+/// let products = Products::of_reflectances(SpectralRange::default(), vec![day], &[paint], 4, 2000, 0);
+/// assert_eq!(products.items.len(), 4); // one to four reflections from one paint
+/// ```
+#[derive(Clone, Debug)]
+pub struct Products {
+    /// The wavelengths of the filters: those of the run that the observer sees.
+    pub range: SpectralRange,
+    /// The spectra of the lamps.
+    pub lamps: Vec<Curve>,
+    /// The reflectances of the materials, as far as they are known as curves.
+    pub reflectances: Vec<Curve>,
+    /// The colours.
+    pub items: Vec<Product>,
+}
+
+/// The wavelengths of `range` at which the observer's functions are not zero; `None` when there are none.
+#[must_use]
+pub fn seen(range: SpectralRange) -> Option<SpectralRange> {
+    let [x, ..] = &Observer::cie_1931_2deg().matching;
+    let points = x.wavelengths_nm();
+    let (first, last) = (points[0] as u32, points[points.len() - 1] as u32);
+    let seen = SpectralRange { min_nm: range.min_nm.max(first), max_nm: range.max_nm.min(last) };
+    (seen.min_nm < seen.max_nm).then_some(seen)
+}
+
+impl Products {
+    /// No colour yet, of lamps over a range; `None` when the observer sees nothing of the range.
+    #[must_use]
+    pub fn new(range: SpectralRange, lamps: Vec<Curve>) -> Option<Self> {
+        Some(Self { range: seen(range)?, lamps, reflectances: Vec::new(), items: Vec::new() })
+    }
+
+    /// The products of one to `depth` of the reflectances under each lamp, each seen beside a perfect diffuser under
+    /// that lamp. Those of one and of two reflections are all taken, as long as they fit into `most` for each lamp; of
+    /// the longer ones as many as fit, drawn by `seed`.
+    #[must_use]
+    pub fn of_reflectances(
+        range: SpectralRange,
+        lamps: Vec<Curve>,
+        reflectances: &[Curve],
+        depth: usize,
+        most: usize,
+        seed: u64,
+    ) -> Self {
+        let Some(mut products) = Self::new(range, lamps) else {
+            return Self { range, lamps: Vec::new(), reflectances: Vec::new(), items: Vec::new() };
+        };
+        products.reflectances = reflectances.to_vec();
+        let tables: Vec<Vec<f64>> = reflectances.iter().map(|c| c.tabulate(products.range)).collect();
+        for chosen in choose_multisets(tables.len(), depth, most, seed) {
+            let mut filter = vec![1.0; products.range.len()];
+            for &material in &chosen {
+                for (product, r) in filter.iter_mut().zip(&tables[material]) {
+                    *product *= r;
+                }
+            }
+            for lamp in 0..products.lamps.len() {
+                let white = products.xyz_of_lamp(lamp);
+                if white[1] > 0.0 {
+                    let parts = vec![Part { lamp, filter: filter.clone() }];
+                    products.items.push(Product { parts, white, weight: 1.0, factors: Some(chosen.clone()) });
+                }
+            }
+        }
+        products
+    }
+
+    /// Absolute XYZ of a lamp, integrated at 1 nm.
+    #[must_use]
+    pub fn xyz_of_lamp(&self, lamp: usize) -> Triple {
+        Observer::cie_1931_2deg().xyz(&self.lamps[lamp], self.range)
+    }
+
+    /// K_m x̄(λ) L(λ) and its likes for Y and Z, at each nm of the range: what turns a filter into XYZ.
+    #[must_use]
+    pub fn weights_of_lamp(&self, lamp: usize) -> [Vec<f64>; 3] {
+        let observer = Observer::cie_1931_2deg();
+        observer.matching.each_ref().map(|m| {
+            let at = |w| LUMINOUS_EFFICACY * m.at(w) * self.lamps[lamp].at(w);
+            self.range.wavelengths().map(at).collect()
+        })
+    }
+}
+
+/// Multisets of 1 to `depth` of `n` things: all of them while they fit into `most`, else as many, drawn by `seed`.
+fn choose_multisets(n: usize, depth: usize, most: usize, seed: u64) -> Vec<Vec<usize>> {
+    let mut chosen = Vec::new();
+    let mut state = seed;
+    for size in 1..=depth {
+        let all = count_multisets(n, size);
+        let room = most.saturating_sub(chosen.len());
+        // The sizes that follow get as much as this one.
+        let share = if size <= 2 { room } else { room.div_ceil(depth + 1 - size) };
+        if all <= share {
+            chosen.extend((0..all).map(|i| multiset(n, size, i)));
+        } else {
+            let mut numbers = std::collections::BTreeSet::new();
+            while numbers.len() < share {
+                numbers.insert((splitmix(&mut state) % all as u64) as usize);
+            }
+            chosen.extend(numbers.into_iter().map(|i| multiset(n, size, i)));
+        }
+    }
+    chosen
+}
+
+/// How many multisets of a size there are: C(n + size − 1, size).
+pub(crate) fn count_multisets(n: usize, size: usize) -> usize {
+    if n == 0 {
+        return 0;
+    }
+    (0..size).fold(1u128, |count, i| count * (n + i) as u128 / (i + 1) as u128).min(usize::MAX as u128)
+        as usize
+}
+
+/// The multiset with a number, in lexicographic order.
+pub(crate) fn multiset(n: usize, size: usize, mut number: usize) -> Vec<usize> {
+    let mut items = Vec::with_capacity(size);
+    let mut least = 0;
+    for left in (0..size).rev() {
+        while number >= count_multisets(n - least, left) {
+            number -= count_multisets(n - least, left);
+            least += 1;
+        }
+        items.push(least);
+    }
+    items
+}
+
+/// SplitMix64 (Steele, Lea and Flood 2014): a number from a counter, the same everywhere.
+pub(crate) fn splitmix(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn multisets_are_all_there_and_each_once() {
+        for (n, size) in [(24, 2), (5, 4), (1, 3), (24, 4)] {
+            let all = count_multisets(n, size);
+            let mut seen: Vec<_> = (0..all).map(|i| multiset(n, size, i)).collect();
+            assert!(seen.iter().all(|m| m.len() == size && m.is_sorted() && m[size - 1] < n));
+            seen.dedup();
+            assert_eq!(seen.len(), all);
+            assert!(seen.is_sorted());
+        }
+        assert_eq!((1..=4).map(|size| count_multisets(24, size)).sum::<usize>(), 20_474);
+    }
+
+    #[test]
+    fn the_number_of_products_is_kept() {
+        let chosen = choose_multisets(24, 4, 2000, 1);
+        assert_eq!(chosen.len(), 2000);
+        assert_eq!(chosen.iter().filter(|m| m.len() <= 2).count(), 324);
+        assert_eq!(choose_multisets(24, 4, 2000, 1), chosen);
+        assert_eq!(choose_multisets(200, 4, 500, 1).len(), 500);
+    }
+
+    #[test]
+    fn what_the_observer_does_not_see_has_no_products() {
+        assert!(seen(SpectralRange { min_nm: 900, max_nm: 1700 }).is_none());
+        assert_eq!(
+            seen(SpectralRange { min_nm: 300, max_nm: 900 }),
+            Some(SpectralRange { min_nm: 360, max_nm: 830 })
+        );
+    }
+}

@@ -1,0 +1,120 @@
+//! The ColorChecker study: every product of one to four of its 24 reflectances, under five lamps.
+
+use illuminant_sampling::{Basis, Comparison, Fitted, Products, SpectralError, SpectralSampling, compare};
+use illuminant_spectrum::{Curve, Outside, SpectralRange};
+
+const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../python/illuminant/data/");
+const LAMPS: [&str; 5] = ["c", "d65", "a", "fl2", "fl11"];
+/// Products that a fit may look at.
+const FITTED_ON: usize = 2000;
+
+/// The columns of a table of the library.
+fn columns(file: &str, outside: Outside) -> Vec<Curve> {
+    let text = std::fs::read_to_string(format!("{DATA}{file}")).unwrap();
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+        .map(|line| line.split(',').map(|field| field.parse().unwrap()).collect())
+        .collect();
+    let wavelengths: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    (1..rows[0].len())
+        .map(|c| Curve::new(wavelengths.clone(), rows.iter().map(|row| row[c]).collect(), outside).unwrap())
+        .collect()
+}
+
+fn lamp(name: &str) -> Curve {
+    columns(&format!("illuminants/{name}.csv"), Outside::Zero).remove(0)
+}
+
+fn checker() -> Vec<Curve> {
+    columns("colorchecker/babelcolor_average.csv", Outside::Hold)
+}
+
+fn products(lamps: &[Curve], most: usize) -> Products {
+    Products::of_reflectances(SpectralRange::default(), lamps.to_vec(), &checker(), 4, most, 1)
+}
+
+/// Mean and maximum as exposed, and with every product lit to half the white.
+fn judge(basis: &dyn Basis, all: &Products) -> (SpectralError, SpectralError) {
+    let found = compare(basis, all);
+    let lit: Vec<_> = found.iter().cloned().map(Comparison::lit_to_half).collect();
+    (SpectralError::over(&found), SpectralError::over(&lit))
+}
+
+#[test]
+fn fitted_sampling_reaches_its_figures_under_each_lamp() {
+    let range = SpectralRange::default();
+    // Mean and maximum, as exposed and lit to half.
+    let limits = [(8, 0.1, 1.5, 0.45, 6.0), (12, 0.03, 0.6, 0.12, 2.0), (16, 0.015, 0.4, 0.05, 1.0)];
+    for name in LAMPS {
+        let lamps = [lamp(name)];
+        let (some, all) = (products(&lamps, FITTED_ON), products(&lamps, usize::MAX));
+        assert_eq!((some.items.len(), all.items.len()), (FITTED_ON, 20_474));
+        for (n, mean, max, lit_mean, lit_max) in limits {
+            let start = std::time::Instant::now();
+            let basis = Fitted::new(n, range, &some).unwrap();
+            let time = start.elapsed();
+            let (exposed, lit) = judge(&basis, &all);
+            let wavelengths: Vec<f64> = (0..n).map(|i| basis.wavelength_nm(i)).collect();
+            eprintln!(
+                "{name} {n}: {:.4} {:.3} | {:.4} {:.3} {time:.2?} {wavelengths:?}",
+                exposed.mean, exposed.max, lit.mean, lit.max
+            );
+            assert!(exposed.mean <= mean && exposed.max <= max, "{name} fitted:{n} {exposed:?}");
+            assert!(lit.mean <= lit_mean && lit.max <= lit_max, "{name} fitted:{n} lit to half {lit:?}");
+        }
+    }
+}
+
+#[test]
+fn five_lamps_in_one_scene_are_served_by_the_same_wavelengths() {
+    let lamps = LAMPS.map(lamp);
+    let some = products(&lamps, FITTED_ON);
+    let all = products(&lamps, usize::MAX);
+    for (n, mean, max) in [(8, 0.15, 2.0), (12, 0.05, 1.3), (16, 0.02, 0.4)] {
+        let start = std::time::Instant::now();
+        let basis = Fitted::new(n, SpectralRange::default(), &some).unwrap();
+        let time = start.elapsed();
+        let (exposed, lit) = judge(&basis, &all);
+        eprintln!(
+            "all five {n}: {:.4} {:.3} | {:.4} {:.3} {time:.2?}",
+            exposed.mean, exposed.max, lit.mean, lit.max
+        );
+        assert!(exposed.mean <= mean && exposed.max <= max, "fitted:{n} {exposed:?}");
+    }
+}
+#[test]
+fn others() {
+    for name in LAMPS {
+        let lamps = [lamp(name)];
+        let (some, all) = (products(&lamps, FITTED_ON), products(&lamps, usize::MAX));
+        for sampling in [
+            "rgb",
+            "rgb:white",
+            "rgb:area",
+            "xyz",
+            "meyer",
+            "meyer:printed",
+            "gauss:3,2,1",
+            "gauss:4,2,2",
+            "uniform:4",
+            "uniform:8",
+            "uniform:16",
+            "uniform:32",
+            "hall:9:even",
+            "hall:9",
+            "hall:9:global",
+            "hall:16",
+        ] {
+            let sampling: SpectralSampling = sampling.parse().unwrap();
+            let start = std::time::Instant::now();
+            let basis = sampling.basis(SpectralRange::default(), &|| Some(some.clone())).unwrap();
+            let time = start.elapsed();
+            let (exposed, lit) = judge(&*basis, &all);
+            eprintln!(
+                "{name} {sampling}: {:.4} {:.3} | {:.4} {:.3} {time:.2?}",
+                exposed.mean, exposed.max, lit.mean, lit.max
+            );
+        }
+    }
+}

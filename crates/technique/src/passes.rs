@@ -1,0 +1,332 @@
+//! The samples of a spectral sampling as bundles of lanes: which paths carry what.
+//!
+//! A basis of more samples than a bundle holds is followed in passes, over the same paths. In a scene with dispersing
+//! materials each path carries, beside the samples of the basis, one wavelength of its own from the camera on. Light that
+//! is not dispersed is seen by the samples; light that a dispersive refraction has bent, by that wavelength alone, whose
+//! throughput before the refraction is known because it was carried.
+
+use crate::film::{LayerPlan, TOO_LARGE, TileFilm};
+use crate::filter::FilterSampler;
+use crate::lanes::Pass;
+use crate::path::{Counts, PathTracer, Primary, Probe, Query, Recorder, Vertex};
+use crate::render::RenderError;
+use crate::sequence::{Sequence, mix};
+use crate::settings::{Layer, Settings};
+use crate::wavelength::{Accompanied, Wavelength, wavelengths};
+use illuminant_illumination::{General, IlluminationModel, Prepare};
+use illuminant_sampling::{Basis, Lanes, ToXyz, lanes_for};
+use illuminant_scene::Scene;
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// What a tile needs to know; generic code hides behind [`TileRenderer`].
+pub(crate) struct Job {
+    pub scene: Arc<Scene>,
+    pub settings: Settings,
+    pub filter: FilterSampler,
+    pub plan: Vec<LayerPlan>,
+    pub channels: usize,
+    /// The group of each lamp: lamps of a group share a bundle.
+    pub group_of: Vec<usize>,
+    pub albedo: Vec<[f32; 3]>,
+}
+
+#[derive(Default)]
+pub(crate) struct TileCounts {
+    pub counts: Counts,
+    pub samples: u64,
+    pub dropped: Vec<([u32; 2], u64)>,
+}
+
+pub(crate) trait TileRenderer: Send + Sync {
+    /// Adds samples to a tile.
+    fn tile(&self, job: &Job, tile: &mut TileFilm, samples: Range<u64>) -> TileCounts;
+    /// Follows one path again, and records all of it.
+    fn replay(&self, job: &Job, pixel: [u32; 2], sample: u64) -> Replay;
+    /// Follows one path and adds, for each group of lamps, what every sample of the basis brings of undispersed light.
+    fn follow(&self, job: &Job, pixel: [u32; 2], sample: u64, to: &mut Followed);
+}
+
+/// What paths have brought.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Followed {
+    /// For each group of lamps the samples of the basis.
+    pub samples: Vec<Vec<f32>>,
+    /// The material that the camera saw last.
+    pub material: Option<usize>,
+    /// Whether the camera saw light.
+    pub emits: bool,
+}
+
+/// A path followed again.
+#[derive(Clone, Debug, Default)]
+pub struct Replay {
+    /// The vertices of each pass.
+    pub passes: Vec<Vec<Vertex>>,
+    /// XYZ of the sample.
+    pub xyz: [f32; 3],
+    /// Its spectral samples.
+    pub spectrum: Vec<f32>,
+    /// The ray queries that it asked.
+    pub queries: Vec<Query>,
+}
+
+/// The light that lamps give in the lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Light {
+    /// Their own.
+    Lamps,
+    /// 1 in every lane: what arrives is then what a path leaves of any light.
+    Unit,
+}
+
+/// The passes of a sampling in bundles of N lanes, through the model M.
+struct Passes<const N: usize, M> {
+    tracer: PathTracer,
+    /// One list of passes for each wavelength that a path may carry beside the samples; else one list.
+    variants: Vec<Vec<Pass<N, M>>>,
+}
+
+impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
+    fn new(scene: &Scene, basis: &dyn Basis, depth: Option<u32>, groups: &[usize], light: Light) -> Self {
+        let brightness: Vec<f32> =
+            scene.materials.iter().map(|material| material.brightness(scene.range) as f32).collect();
+        let passes = |basis: &dyn Basis, companion: Option<Wavelength>| -> Vec<Pass<N, M>> {
+            let total = basis.len();
+            let ranges = (0..total.div_ceil(N)).map(|i| i * N..((i + 1) * N).min(total));
+            ranges
+                .map(|samples| Pass::new(scene, &brightness, basis, samples, groups, companion, light))
+                .collect()
+        };
+        let variants = match wavelengths(scene, basis) {
+            Some(all) => all.par_iter().map(|w| passes(&Accompanied::new(basis, *w), Some(*w))).collect(),
+            None => vec![passes(basis, None)],
+        };
+        Self { tracer: PathTracer { depth: depth.unwrap_or(u32::MAX) }, variants }
+    }
+
+    /// The passes of a path. Neighbouring samples of a pixel take wavelengths far apart, neighbouring pixels others.
+    fn variant(&self, job: &Job, stream: u64, sample: u64) -> &[Pass<N, M>] {
+        let count = self.variants.len() as u64;
+        if count == 1 {
+            return &self.variants[0];
+        }
+        // 633 has no factor in common with their number, 1024, and is near its golden section.
+        let place = mix(job.settings.seed, stream).wrapping_add(sample.wrapping_mul(633));
+        &self.variants[(place % count) as usize]
+    }
+
+    /// Follows one sample through all passes; `each` gets what every pass brought.
+    #[inline(always)]
+    fn sample<P: Probe>(
+        &self,
+        job: &Job,
+        pixel: [u32; 2],
+        sample: u64,
+        radiance: &mut [Lanes<N>],
+        probe: &mut P,
+        mut each: impl FnMut(&Pass<N, M>, &[Lanes<N>], &mut P),
+    ) -> Primary {
+        let [x, y] = pixel;
+        let replicates = u64::from(job.settings.replicates.max(1));
+        let stream = u64::from(y) << 32 | u64::from(x);
+        let mut sequence = Sequence::new(job.settings.seed, stream, sample / replicates, sample % replicates);
+        let [u, v, u_lamp @ ..] = sequence.next4();
+        let [open, close] = job.scene.camera.shutter;
+        let u_time = if close > open { sequence.next4()[0] } else { 0.0 };
+        let (fx, fy) = (job.filter.offset(u), job.filter.offset(v));
+        let ray = job.scene.camera.ray(x as f32 + 0.5 + fx, y as f32 + 0.5 + fy, u_time);
+        let mut primary = Primary::default();
+        for pass in self.variant(job, stream, sample) {
+            radiance.fill(Lanes::default());
+            primary =
+                self.tracer.trace(&job.scene, pass, &job.group_of, ray, sequence, u_lamp, radiance, probe);
+            each(pass, radiance, probe);
+        }
+        primary
+    }
+
+    /// An empty bundle for each group, and with dispersion another for what has been dispersed.
+    fn bundles(&self) -> Vec<Lanes<N>> {
+        vec![Lanes::default(); self.variants[0].first().map_or(0, |pass| pass.to_xyz.len())]
+    }
+}
+
+#[inline(always)]
+fn add_xyz<const N: usize, M>(pass: &Pass<N, M>, radiance: &[Lanes<N>], xyz: &mut [f32; 3]) -> bool {
+    let mut sound = true;
+    for (light, rows) in radiance.iter().zip(&pass.to_xyz) {
+        sound &= light.is_radiance();
+        for (sum, row) in xyz.iter_mut().zip(rows) {
+            *sum += light.dot(row);
+        }
+    }
+    sound
+}
+
+impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<N, M> {
+    fn tile(&self, job: &Job, tile: &mut TileFilm, samples: Range<u64>) -> TileCounts {
+        let mut result = TileCounts::default();
+        let missing = tile.claim(samples);
+        let mut radiance = self.bundles();
+        let mut values = vec![0.0f32; job.channels];
+        let plain = job.plan.len() == 1;
+        let [x0, y0, ..] = tile.area;
+        for i in 0..tile.samples.len() {
+            let pixel = [x0 + i as u32 % tile.width(), y0 + i as u32 / tile.width()];
+            for sample in missing.iter().cloned().flatten() {
+                result.samples += 1;
+                let mut xyz = [0.0f32; 3];
+                let mut sound = true;
+                if !plain {
+                    values.fill(0.0);
+                }
+                let primary =
+                    self.sample(job, pixel, sample, &mut radiance, &mut result.counts, |pass, light, _| {
+                        sound &= add_xyz(pass, light, &mut xyz);
+                        if !plain {
+                            spectral_layers(job, pass, light, &mut values);
+                        }
+                    });
+                values[..3].copy_from_slice(&xyz);
+                if !plain {
+                    auxiliary_layers(job, &primary, sample, &mut values);
+                }
+                // Every channel, not XYZ alone: a lane in the infrared may be vast where its XYZ is nothing.
+                if sound && values.iter().all(|v| v.abs() < TOO_LARGE) {
+                    tile.add(i, &values);
+                } else {
+                    result.dropped.push((pixel, sample));
+                }
+            }
+        }
+        result
+    }
+
+    fn replay(&self, job: &Job, pixel: [u32; 2], sample: u64) -> Replay {
+        let mut radiance = self.bundles();
+        let (mut passes, mut xyz, mut spectrum, mut queries) = (Vec::new(), [0.0; 3], Vec::new(), Vec::new());
+        self.sample(job, pixel, sample, &mut radiance, &mut Recorder::default(), |pass, light, recorder| {
+            add_xyz(pass, light, &mut xyz);
+            let sum = light.iter().fold(Lanes::default(), |sum: Lanes<N>, r| sum + *r);
+            spectrum.extend_from_slice(&sum.0[..pass.samples.len()]);
+            passes.push(std::mem::take(&mut recorder.vertices));
+            queries.append(&mut recorder.queries);
+        });
+        Replay { passes, xyz, spectrum, queries }
+    }
+
+    fn follow(&self, job: &Job, pixel: [u32; 2], sample: u64, to: &mut Followed) {
+        let mut radiance = self.bundles();
+        let samples = &mut to.samples;
+        let primary =
+            self.sample(job, pixel, sample, &mut radiance, &mut Counts::default(), |pass, light, _| {
+                for (light, all) in light.iter().zip(samples.iter_mut()) {
+                    for (sum, value) in all[pass.own_samples()].iter_mut().zip(&light.0) {
+                        *sum += value;
+                    }
+                }
+            });
+        to.material = primary.surface.map(|(_, object, _)| job.scene.objects[object as usize].material);
+        to.emits |= primary.emits;
+    }
+}
+
+/// The layers that come from lanes: each lamp by itself, and the lanes themselves.
+fn spectral_layers<const N: usize, M>(job: &Job, pass: &Pass<N, M>, light: &[Lanes<N>], values: &mut [f32]) {
+    let mut lamp = 0;
+    for layer in &job.plan {
+        match layer.layer {
+            Layer::Lamps => {
+                let group = job.group_of[lamp];
+                lamp += 1;
+                // The light of the lamp that was dispersed lies as many bundles further on.
+                for bundle in [Some(group), pass.dispersed.map(|first| first + group)].into_iter().flatten() {
+                    for (slot, row) in values[layer.channels.clone()].iter_mut().zip(&pass.to_xyz[bundle]) {
+                        *slot += light[bundle].dot(row);
+                    }
+                }
+            }
+            Layer::Spectra => {
+                let undispersed = pass.dispersed.unwrap_or(light.len());
+                let channels = &mut values[layer.channels.clone()];
+                for light in &light[..undispersed] {
+                    for (slot, v) in channels[pass.own_samples()].iter_mut().zip(&light.0) {
+                        *slot += v;
+                    }
+                }
+                // A wavelength of its own is kept in the sample that stands for its part of the spectrum.
+                if let Some(companion) = &pass.companion {
+                    for light in &light[undispersed..] {
+                        channels[companion.stand_in] += light.0[companion.lane] * companion.share;
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The layers that come from what the camera sees first, and the halves.
+fn auxiliary_layers(job: &Job, primary: &Primary, sample: u64, values: &mut [f32]) {
+    let y = values[1];
+    for layer in &job.plan {
+        let slots = &mut values[layer.channels.clone()];
+        match (layer.layer, primary.surface) {
+            (Layer::Halves, _) if sample % 2 == 1 => slots.copy_from_slice(&[y, 1.0]),
+            (Layer::Depth, Some((distance, ..))) => slots.copy_from_slice(&[distance, 1.0]),
+            (Layer::Normal, Some((.., normal))) => slots.copy_from_slice(&normal.to_array()),
+            (Layer::Albedo, Some((_, object, _))) => {
+                slots.copy_from_slice(&job.albedo[job.scene.objects[object as usize].material]);
+            }
+            (Layer::Emission, _) => slots[0] = f32::from(u8::from(primary.emits)),
+            _ => {}
+        }
+    }
+}
+
+/// Lamps that share a map to XYZ share a bundle, unless each is wanted by itself: a lamp for each group, and the group
+/// of each lamp.
+pub(crate) fn group_lamps(basis: &dyn Basis, lamps: usize, by_lamp: bool) -> (Vec<usize>, Vec<usize>) {
+    let mut groups: Vec<usize> = Vec::new();
+    let mut maps: Vec<ToXyz> = Vec::new();
+    let mut group_of = Vec::with_capacity(lamps);
+    for lamp in 0..lamps {
+        let map = basis.to_xyz(lamp);
+        let shared = maps.iter().position(|m| !by_lamp && same(m, &map));
+        group_of.push(shared.unwrap_or(groups.len()));
+        if shared.is_none() {
+            groups.push(lamp);
+            maps.push(map);
+        }
+    }
+    (groups, group_of)
+}
+
+/// Whether two maps are one but for rounding.
+fn same(a: &ToXyz, b: &ToXyz) -> bool {
+    let largest = a.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
+    a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() <= 1e-9 * largest)
+}
+
+/// The one place where lane-generic code is instantiated.
+pub(crate) fn renderer(
+    scene: &Scene,
+    basis: &dyn Basis,
+    depth: Option<u32>,
+    groups: &[usize],
+    light: Light,
+) -> Result<Box<dyn TileRenderer>, RenderError> {
+    let samples = basis.len() + usize::from(wavelengths(scene, basis).is_some());
+    match lanes_for(samples).unwrap_or(32) {
+        8 => Ok(Box::new(Passes::<8, General<8>>::new(scene, basis, depth, groups, light))),
+        #[cfg(not(feature = "only-8-lanes"))]
+        4 => Ok(Box::new(Passes::<4, General<4>>::new(scene, basis, depth, groups, light))),
+        #[cfg(not(feature = "only-8-lanes"))]
+        16 => Ok(Box::new(Passes::<16, General<16>>::new(scene, basis, depth, groups, light))),
+        #[cfg(not(feature = "only-8-lanes"))]
+        32 => Ok(Box::new(Passes::<32, General<32>>::new(scene, basis, depth, groups, light))),
+        other => Err(RenderError::Setting(format!("bundles of {other} lanes are not compiled in"))),
+    }
+}

@@ -1,0 +1,212 @@
+//! The colours that a scene shows, for fitting a spectral sampling to it and for judging one.
+//!
+//! A few paths are followed through the scene at every nm, with light of 1 from each lamp. What arrives at a pixel is
+//! then, for each lamp, the sum of all products of reflectances, transmittances and absorptions that its paths met,
+//! at the angles and depths at which they met them, each weighted by how likely a path makes it. A sampling is fitted on
+//! one set of paths and judged on another.
+
+use crate::filter::FilterSampler;
+use crate::passes::{Followed, Job, Light, TileRenderer, group_lamps, renderer};
+use crate::settings::Settings;
+use illuminant_color::{RgbSystem, Triple};
+use illuminant_sampling::{Basis, Comparison, OneNanometre, Part, Product, Products, SpectralError, seen};
+use illuminant_scene::Scene;
+use illuminant_spectrum::{Curve, LUMINOUS_EFFICACY, Observer, SpectralRange};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Pixels along each side of the grid that is probed.
+const GRID: u32 = 24;
+/// Paths of each pixel.
+const PATHS: u64 = 4;
+/// The seed of the probes: the same for every render, so that the wavelengths depend on the scene alone.
+const SEED: u64 = 0x5eed;
+/// What the products of the materials as such weigh beside those that paths make: they stand in for what the probes did
+/// not see.
+const STAND_IN: f64 = 0.1;
+/// The most products of materials as such.
+const MOST_STAND_INS: usize = 400;
+/// A lamp that gives less than this fraction of a pixel's light is left out of its product.
+const NEGLIGIBLE: f64 = 1e-3;
+/// Where the white of the scene lies: this percentile of luminance is shown as this fraction of white, as in PNGs.
+const WHITE: (f64, f64) = (0.98, 0.8);
+
+/// Which paths.
+#[derive(Clone, Copy, Debug)]
+enum Set {
+    /// To fit.
+    Fitting = 0,
+    /// To judge.
+    Judging = 1,
+}
+
+/// What a pixel shows, by lamp and at every nm that is seen.
+struct Probe {
+    pixel: [u32; 2],
+    /// For each lamp the filter, and the XYZ of its light.
+    parts: Vec<(Vec<f64>, Triple)>,
+    material: Option<usize>,
+    emits: bool,
+}
+
+impl Probe {
+    fn xyz(&self) -> Triple {
+        std::array::from_fn(|a| self.parts.iter().map(|(_, xyz)| xyz[a]).sum())
+    }
+}
+
+/// A job that follows paths outside a film.
+fn job(scene: &Arc<Scene>, settings: &Settings, group_of: Vec<usize>) -> Job {
+    let settings = Settings { seed: SEED, replicates: 1, ..settings.clone() };
+    Job {
+        filter: FilterSampler::new(&settings.filter),
+        scene: Arc::clone(scene),
+        settings,
+        plan: Vec::new(),
+        channels: 0,
+        group_of,
+        albedo: Vec::new(),
+    }
+}
+
+/// The pixels of a set: one in each cell of a grid over the whole image, wherever the crop lies.
+fn pixels(scene: &Scene, set: Set) -> Vec<[u32; 2]> {
+    let [width, height] = scene.camera.size;
+    let at = |i: u32, size: u32, shift: f64| {
+        (((f64::from(i) + shift) / f64::from(GRID) * f64::from(size)) as u32).min(size - 1)
+    };
+    // The second set lies between the points of the first.
+    let shift = [0.25, 0.75][set as usize];
+    (0..GRID * GRID).map(|i| [at(i % GRID, width, shift), at(i / GRID, height, shift)]).collect()
+}
+
+/// Follows the paths of a pixel; the mean of what they bring.
+fn follow(
+    renderer: &dyn TileRenderer,
+    job: &Job,
+    pixel: [u32; 2],
+    set: Set,
+    groups: usize,
+    samples: usize,
+) -> Followed {
+    let mut sum = Followed { samples: vec![vec![0.0; samples]; groups], ..Followed::default() };
+    for path in 0..PATHS {
+        renderer.follow(job, pixel, path + PATHS * set as u64, &mut sum);
+    }
+    sum.samples.iter_mut().flatten().for_each(|v| *v /= PATHS as f32);
+    sum
+}
+
+/// What the pixels of a set show at every nm.
+fn probe(scene: &Arc<Scene>, settings: &Settings, set: Set) -> Option<Vec<Probe>> {
+    let range = seen(scene.range)?;
+    let basis = OneNanometre::new(scene.range);
+    let lamps = scene.lamps.len();
+    let groups: Vec<usize> = (0..lamps).collect();
+    let renderer = renderer(scene, &basis, settings.depth, &groups, Light::Unit).ok()?;
+    let job = job(scene, settings, groups);
+    let first = (range.min_nm - scene.range.min_nm) as usize;
+    let weights: Vec<[Vec<f64>; 3]> = scene.lamps.iter().map(|lamp| weights(&lamp.spectrum, range)).collect();
+    let probes = pixels(scene, set).into_par_iter().map(|pixel| {
+        let found = follow(&*renderer, &job, pixel, set, lamps, basis.len());
+        let parts = found.samples.iter().zip(&weights).map(|(samples, weights)| {
+            let filter: Vec<f64> =
+                samples[first..first + range.len()].iter().map(|v| f64::from(*v)).collect();
+            let xyz = weights.each_ref().map(|row| row.iter().zip(&filter).map(|(w, f)| w * f).sum());
+            (filter, xyz)
+        });
+        Probe { pixel, parts: parts.collect(), material: found.material, emits: found.emits }
+    });
+    // A path that is no radiance is no product either.
+    Some(probes.filter(|p: &Probe| p.xyz().iter().all(|v| v.is_finite() && *v >= 0.0)).collect())
+}
+
+/// K_m x̄ L and its likes at each nm.
+fn weights(lamp: &Curve, range: SpectralRange) -> [Vec<f64>; 3] {
+    let observer = Observer::cie_1931_2deg();
+    observer
+        .matching
+        .each_ref()
+        .map(|m| range.wavelengths().map(|w| LUMINOUS_EFFICACY * m.at(w) * lamp.at(w)).collect())
+}
+
+/// XYZ of the white beside which the scene is seen: D65 of the luminance that a PNG maps to 1; `None` in the dark.
+fn white(probes: &[Probe]) -> Option<Triple> {
+    let mut luminances: Vec<f64> = probes.iter().filter(|p| !p.emits).map(|p| p.xyz()[1]).collect();
+    if luminances.iter().all(|y| *y <= 0.0) {
+        luminances = probes.iter().map(|p| p.xyz()[1]).collect();
+    }
+    luminances.sort_by(f64::total_cmp);
+    let (percentile, level) = WHITE;
+    let at = ((luminances.len() as f64 * percentile) as usize).min(luminances.len().checked_sub(1)?);
+    let luminance = luminances[at] / level;
+    let d65 = RgbSystem::named("sRGB")?.to_xyz([1.0; 3]);
+    (luminance > 0.0).then(|| d65.map(|v| v * luminance))
+}
+
+/// The products of a scene: what its pixels show, and with little weight those of its materials as such, one and two
+/// reflections under each lamp. `None` where the observer sees nothing of the range.
+#[must_use]
+pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
+    let lamps: Vec<Curve> = scene.lamps.iter().map(|lamp| lamp.spectrum.clone()).collect();
+    let mut products =
+        Products::of_reflectances(scene.range, lamps, &scene.reflectances(), 2, MOST_STAND_INS, SEED);
+    let probes = probe(scene, settings, Set::Fitting)?;
+    let Some(white) = white(&probes) else { return Some(products) };
+    let stand_ins = products.items.len();
+    for probe in &probes {
+        let total = probe.xyz()[1];
+        if total <= 0.0 {
+            continue;
+        }
+        let counts = |xyz: &Triple| xyz[1] > NEGLIGIBLE * total;
+        let parts = probe.parts.iter().enumerate().filter(|(_, (_, xyz))| counts(xyz));
+        let parts = parts.map(|(lamp, (filter, _))| Part { lamp, filter: filter.clone() }).collect();
+        products.items.push(Product { parts, white, weight: 1.0, factors: None });
+    }
+    let shown = products.items.len() - stand_ins;
+    if shown > 0 {
+        let weight = STAND_IN * shown as f64 / stand_ins.max(1) as f64;
+        products.items[..stand_ins].iter_mut().for_each(|item| item.weight = weight);
+    }
+    Some(products)
+}
+
+/// What a sampling costs in colour: ΔE00 between pixels integrated at 1 nm and the same paths in its samples, on paths
+/// that no fit has looked at. Zero where the observer sees nothing.
+#[must_use]
+pub fn spectral_error(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> SpectralError {
+    SpectralError::over(&comparisons(scene, settings, basis).unwrap_or_default())
+}
+
+fn comparisons(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Option<Vec<Comparison>> {
+    if basis.len() == scene.range.len() {
+        return None; // the reference itself
+    }
+    let probes = probe(scene, settings, Set::Judging)?;
+    let white = white(&probes)?;
+    let (groups, group_of) = group_lamps(basis, scene.lamps.len(), false);
+    let renderer = renderer(scene, basis, settings.depth, &groups, Light::Lamps).ok()?;
+    let job = job(scene, settings, group_of);
+    let maps: Vec<_> = groups.iter().map(|&lamp| basis.to_xyz(lamp)).collect();
+    let of = |probe: &Probe| {
+        let found = follow(&*renderer, &job, probe.pixel, Set::Judging, groups.len(), basis.len());
+        let mut sampled = [0.0; 3];
+        for (samples, map) in found.samples.iter().zip(&maps) {
+            for (sum, row) in sampled.iter_mut().zip(map) {
+                *sum += samples.iter().zip(row).map(|(v, w)| f64::from(*v) * w).sum::<f64>();
+            }
+        }
+        let brightest =
+            probe.parts.iter().enumerate().max_by(|(_, (_, a)), (_, (_, b))| a[1].total_cmp(&b[1]));
+        Comparison {
+            exact: probe.xyz(),
+            sampled,
+            white,
+            weight: 1.0,
+            lamp: brightest.map_or(0, |(lamp, _)| lamp),
+            materials: probe.material.into_iter().collect(),
+        }
+    };
+    Some(probes.par_iter().map(of).collect())
+}

@@ -1,0 +1,49 @@
+//! What a user should know before rendering a scene with a spectral sampling.
+
+use illuminant_color::{Lab, delta_e_2000};
+use illuminant_illumination::Surface;
+use illuminant_sampling::{Basis, Role};
+use illuminant_scene::Scene;
+use illuminant_spectrum::Observer;
+
+/// A lamp whose white is off by more than this ΔE00 is worth a word.
+const VISIBLE: f64 = 1.0;
+
+/// The sentences.
+pub(crate) fn warnings(scene: &Scene, basis: &dyn Basis, sampling: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (lamp, data) in scene.lamps.iter().enumerate() {
+        let exact = Observer::cie_1931_2deg().xyz(&data.spectrum, scene.range);
+        if exact[1] <= 0.0 {
+            continue;
+        }
+        let light = basis.reduce(&data.spectrum, Role::Emission);
+        let sampled = basis.to_xyz(lamp).map(|row| row.iter().zip(&light).map(|(w, l)| w * l).sum());
+        let off = delta_e_2000(Lab::from_xyz(exact, exact), Lab::from_xyz(sampled, exact));
+        if off > VISIBLE {
+            found.push(format!(
+                "lamp {:?} has a spectrum too fine for {sampling} (its white is off by ΔE00 {off:.1}); use fitted:8 or 1nm",
+                data.name
+            ));
+        }
+    }
+    if !basis.is_spectral() {
+        found.push(format!(
+            "{sampling} multiplies colours instead of spectra, to show what that does; fitted:8 is right and as fast"
+        ));
+        let kinds = scene.materials.iter().map(|material| &material.surface);
+        if kinds.clone().any(|s| matches!(s, Surface::Conductor { .. })) {
+            found.push(format!(
+                "{sampling} knows of a conductor its colour at normal incidence alone, and bends that towards white by \
+                 Cook's interpolation"
+            ));
+        }
+        if kinds.clone().any(|s| matches!(s, Surface::Dielectric { dispersion: true, .. })) {
+            found.push(format!("{sampling} has no wavelengths to disperse: every prism is colourless"));
+        }
+    }
+    if !scene.sees_anything() {
+        found.push("the camera sees nothing: no object lies in its view, and there is no environment".into());
+    }
+    found
+}
