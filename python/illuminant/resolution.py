@@ -81,6 +81,8 @@ class Resolver:
         emission = None
         if table.kind == "diffuse":
             entry["reflectance"] = self._spectrum(table, bad, "reflectance", "reflectance", path)
+        elif table.kind == "filter":
+            entry["transmittance"] = self._spectrum(table, bad, "transmittance", "reflectance", path)
         elif table.kind == "conductor":
             for part in ("n", "k"):
                 entry[part] = self._part_of(table, bad, "metal", part, path)

@@ -220,6 +220,17 @@ class Dielectric(Table):
     )
 
 
+class ThinFilter(Table):
+    """A thin filter, such as a gel before a lamp: it absorbs, and neither reflects nor bends light.
+
+    Light passes straight through, once for each sheet. Lamps of a size are seen through it; points and parallel light
+    are hidden by it.
+    """
+
+    kind: Literal["filter"] = key("the kind of material", '"filter"')
+    transmittance: SpectrumValue = key("fraction of light let through, 0 to 1", '"gels.csv"')
+
+
 class Emitter(Quantities):
     """A surface that shines with the same radiance in all directions, and reflects as a diffuse one.
 
@@ -291,13 +302,14 @@ class Environment(Quantities):
     )
 
 
-MaterialValue = Diffuse | Conductor | Dielectric | Emitter
+MaterialValue = Diffuse | Conductor | Dielectric | ThinFilter | Emitter
 LightValue = Point | Spot | Directional | Environment
 
 KINDS_OF_MATERIAL: dict[str, type[Table]] = {
     "diffuse": Diffuse,
     "conductor": Conductor,
     "dielectric": Dielectric,
+    "filter": ThinFilter,
     "emitter": Emitter,
 }
 KINDS_OF_LIGHT: dict[str, type[Table]] = {

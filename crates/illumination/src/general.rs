@@ -1,6 +1,6 @@
 //! `general`: reflection and transmission in energy equilibrium (book eq 2.49).
 //!
-//! Today: ideal diffuse reflection; smooth boundaries with Fresnel's equations (coherent part); rough boundaries with
+//! Today: ideal diffuse reflection; thin filters; smooth boundaries with Fresnel's equations (coherent part); rough boundaries with
 //! GGX facets, single scattering (Walter et al. 2007; Heitz 2018), whose loss at high roughness the multiple
 //! scattering of the optics room will return. A material becomes lanes directly: reflectance, n and k at the
 //! wavelength of each lane.
@@ -75,6 +75,13 @@ pub enum General<const N: usize> {
         /// The facets; `None` for a mirror.
         facets: Option<Ggx<f32>>,
     },
+    /// A thin filter: what it lets through goes straight on.
+    Filter {
+        /// Transmittance.
+        transmittance: Lanes<N>,
+        /// The same as one number.
+        brightness: f32,
+    },
     /// A dielectric boundary.
     Dielectric {
         /// Whether lanes part ways when refracted.
@@ -111,6 +118,9 @@ impl<const N: usize> Prepare for General<N> {
                 brightness,
                 facets: facets(*roughness),
             },
+            Surface::Filter { transmittance } => {
+                Self::Filter { transmittance: lanes(transmittance, Role::Fraction), brightness }
+            }
             Surface::Dielectric { n, roughness, dispersion, .. } => {
                 let (low, high) = n.extent(range);
                 let dispersive =
@@ -317,7 +327,9 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
                 let (f_cos, _) = Self::rough_dielectric(at, *dispersive, ggx, to_light);
                 f_cos * to_light.z.abs().max(1e-9).recip()
             }
-            Self::Conductor { facets: None, .. } | Self::Dielectric { facets: None, .. } => Lanes::default(),
+            Self::Conductor { facets: None, .. }
+            | Self::Dielectric { facets: None, .. }
+            | Self::Filter { .. } => Lanes::default(),
         }
     }
 
@@ -344,7 +356,9 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
             Self::Dielectric { dispersive, facets: Some(ggx) } => {
                 Self::rough_dielectric(at, *dispersive, ggx, to_light).1
             }
-            Self::Conductor { facets: None, .. } | Self::Dielectric { facets: None, .. } => 0.0,
+            Self::Conductor { facets: None, .. }
+            | Self::Dielectric { facets: None, .. }
+            | Self::Filter { .. } => 0.0,
         }
     }
 
@@ -381,6 +395,14 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
                     disperses: false,
                 })
             }
+            Self::Filter { transmittance, brightness } => Some(Scattered {
+                direction: -at.to_viewer,
+                weight: *transmittance,
+                brightness: *brightness,
+                pdf: None,
+                transmitted: true,
+                disperses: false,
+            }),
             Self::Dielectric { dispersive, facets } => {
                 Self::sample_dielectric(at, *dispersive, facets.as_ref(), u, hero)
             }
@@ -398,6 +420,9 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
                 weight: fresnel.reflectance(v[2], at.near.lanes),
                 transmitted: false,
             }],
+            Self::Filter { transmittance, .. } => {
+                vec![DiscreteLobe { direction: -at.to_viewer, weight: *transmittance, transmitted: true }]
+            }
             Self::Dielectric { dispersive, facets: None } => {
                 let boundary = Boundary::new(at, *dispersive, at.hero_lane, v[2]);
                 let reflectance = boundary.reflectance(v[2]);
@@ -415,11 +440,16 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
 
     #[inline(always)]
     fn is_continuous(&self) -> bool {
-        !matches!(self, Self::Conductor { facets: None, .. } | Self::Dielectric { facets: None, .. })
+        !matches!(
+            self,
+            Self::Conductor { facets: None, .. }
+                | Self::Dielectric { facets: None, .. }
+                | Self::Filter { .. }
+        )
     }
 
     #[inline(always)]
-    fn transmits(&self) -> bool {
+    fn bounds_media(&self) -> bool {
         matches!(self, Self::Dielectric { .. })
     }
 

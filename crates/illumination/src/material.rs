@@ -31,6 +31,11 @@ pub enum Surface {
         /// Slope parameter α of its facets; 0 is a mirror.
         roughness: f64,
     },
+    /// A thin filter, such as a gel before a lamp: it absorbs, and neither reflects nor bends light.
+    Filter {
+        /// Fraction of light let through.
+        transmittance: Curve,
+    },
     /// A transparent dielectric body.
     Dielectric {
         /// Index of refraction.
@@ -46,12 +51,13 @@ pub enum Surface {
 
 impl Material {
     /// A reflectance at normal incidence that stands for the material in auxiliary images and error estimates:
-    /// the diffuse reflectance, or Fresnel's of the smooth boundary (1 for a clear dielectric, which passes the rest).
+    /// the diffuse reflectance, a filter's transmittance, or Fresnel's of the smooth boundary (1 for a clear dielectric, which passes the rest).
     #[must_use]
     pub fn representative_reflectance(&self, range: SpectralRange) -> Curve {
         use illuminant_optics::fresnel::conductor;
         match &self.surface {
             Surface::Diffuse { reflectance } => reflectance.clone(),
+            Surface::Filter { transmittance } => transmittance.clone(),
             Surface::Conductor { n, k, .. } => {
                 let values = range.wavelengths().map(|w| conductor(1.0, n.at(w), k.at(w))).collect();
                 Curve::tabulated(range, values, illuminant_spectrum::Outside::Hold)

@@ -99,8 +99,8 @@ pub trait IlluminationModel<const N: usize>: Send + Sync {
     /// Whether the model has a continuous part at all, so that asking lamps is worth it.
     fn is_continuous(&self) -> bool;
 
-    /// Whether light passes through the surface, so that the media on its two sides matter.
-    fn transmits(&self) -> bool;
+    /// Whether the surface is the border of two media: light that passes through it is then in the other.
+    fn bounds_media(&self) -> bool;
 
     /// What the surface returns of light that comes evenly from everywhere and is not followed; zero for models in
     /// equilibrium, which follow all light.

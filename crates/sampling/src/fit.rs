@@ -21,6 +21,8 @@ const REFINED: usize = 3;
 const ROUNDS: usize = 5;
 /// The power of the error whose mean is made small.
 const POWER: i32 = 4;
+/// What materials that nothing is known of weigh beside those of the products.
+const UNKNOWN: f64 = 0.25;
 /// Improvements smaller than this fraction are none: it ends the search and hides rounding.
 const LEAST: f64 = 1e-9;
 
@@ -34,29 +36,32 @@ pub(crate) struct Fit {
 
 /// The best `n` wavelengths found, and their weights; `None` where there is nothing to fit.
 pub(crate) fn fit(products: &Products, n: usize) -> Option<Fit> {
+    let known = products.items.len();
+    let products = &products.clone().with_unknown_materials(UNKNOWN);
     let sides = Side::all(products);
     let points = products.range.len();
-    if sides.iter().all(|side| side.items.is_empty()) || points < n {
+    if known == 0 || sides.is_empty() || points < n {
         return None;
     }
     let base: Vec<f64> = products.items.iter().map(|item| item.weight).collect();
-    let total: f64 = base.iter().sum();
+    let total: f64 = base[..known].iter().sum();
     let mut importance = base.clone();
     let mut set = Vec::new();
     let mut best: Option<(f64, Vec<usize>, Vec<[Vec<f64>; 3]>)> = None;
     for round in 0..ROUNDS {
-        if round == 0 {
-            set = start(&sides, &importance, points, n);
-        }
-        let (refined, weights) = refine(&sides, &importance, points, set);
+        let starts = if round == 0 { starts(&sides, &importance, points, n) } else { vec![set] };
+        let refined = starts.into_iter().map(|start| refine(&sides, &importance, points, start));
+        let (refined, weights, _) = refined.max_by(|a, b| a.2.total_cmp(&b.2))?;
         set = refined;
         let errors = errors(products, &sides, &set, &weights);
+        let errors = &errors[..known];
         let mean = errors.iter().zip(&base).map(|(e, w)| e * w).sum::<f64>() / total;
         let score = mean + 0.05 * errors.iter().copied().fold(0.0, f64::max);
         if best.as_ref().is_none_or(|(least, ..)| score < *least) {
             best = Some((score, set.clone(), weights));
         }
-        for ((new, e), b) in importance.iter_mut().zip(&errors).zip(&base) {
+        // What is not known keeps its weight: it is here to be served, not to rule.
+        for ((new, e), b) in importance.iter_mut().zip(errors).zip(&base) {
             *new = b * (e / mean.max(1e-9) + 0.05).powi(POWER - 2);
         }
     }
@@ -109,8 +114,8 @@ fn gains(normals: &[Normal], set: &[usize]) -> Vec<f64> {
     sum
 }
 
-/// Good wavelengths on the coarse grid.
-fn start(sides: &[Side], importance: &[f64], points: usize, n: usize) -> Vec<usize> {
+/// Good sets of wavelengths on the coarse grid.
+fn starts(sides: &[Side], importance: &[f64], points: usize, n: usize) -> Vec<Vec<usize>> {
     // A short range may have fewer coarse points than are needed.
     let step = COARSE.min(points / n).max(1);
     let grid: Vec<usize> = (0..points).step_by(step).collect();
@@ -121,10 +126,11 @@ fn start(sides: &[Side], importance: &[f64], points: usize, n: usize) -> Vec<usi
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     found.dedup_by(|a, b| a.0 == b.0);
     found.truncate(REFINED);
-    let refined: Vec<(Vec<usize>, f64)> =
-        found.into_par_iter().map(|(set, _)| exchange_nonnegative(&normals, set, &|_, _| true, 4)).collect();
-    let best = refined.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
-    best.map_or_else(Vec::new, |(set, _)| set.iter().map(|&i| grid[i]).collect())
+    let on_grid = |set: Vec<usize>| set.iter().map(|&i| grid[i]).collect();
+    found
+        .into_par_iter()
+        .map(|(set, _)| on_grid(exchange_nonnegative(&normals, set, &|_, _| true, 4).0))
+        .collect()
 }
 
 /// One wavelength after the other, each the best beside those before it.
@@ -230,13 +236,13 @@ fn exchange_nonnegative(
     (set, best)
 }
 
-/// Moves wavelengths nm by nm; the wavelengths, and the weights of each side.
+/// Moves wavelengths nm by nm; the wavelengths, the weights of each side, and how much of the error they take away.
 fn refine(
     sides: &[Side],
     importance: &[f64],
     points: usize,
     mut set: Vec<usize>,
-) -> (Vec<usize>, Vec<[Vec<f64>; 3]>) {
+) -> (Vec<usize>, Vec<[Vec<f64>; 3]>, f64) {
     let mut sweep = 0;
     loop {
         // Beside each wavelength its neighbours, near ones closely.
@@ -254,8 +260,8 @@ fn refine(
         let (moved, _) = exchange_nonnegative(&normals, numbers, &near, 4);
         let wavelengths: Vec<usize> = moved.iter().map(|&i| candidates[i]).collect();
         if wavelengths == set || sweep == 5 {
-            let weights = normals.iter().map(|normal| normal.nonnegative(&moved).0).collect();
-            return (wavelengths, weights);
+            let (weights, gains): (_, Vec<f64>) = normals.iter().map(|n| n.nonnegative(&moved)).unzip();
+            return (wavelengths, weights, gains.iter().sum());
         }
         set = wavelengths;
         sweep += 1;

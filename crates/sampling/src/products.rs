@@ -102,6 +102,29 @@ impl Products {
         products
     }
 
+    /// The same with reflectances that are in no scene and stand for those that a fit does not know: smooth steps, up and
+    /// down, at wavelengths throughout the visible. Together they weigh `share` of all others.
+    #[must_use]
+    pub(crate) fn with_unknown_materials(mut self, share: f64) -> Self {
+        let total: f64 = self.items.iter().map(|item| item.weight).sum();
+        let mut filters: Vec<Vec<f64>> = Vec::new();
+        for centre in (400..=700).step_by(20).map(f64::from) {
+            for width in [8.0, 25.0, -8.0, -25.0] {
+                let step = |w: f64| 0.05 + 0.85 / (1.0 + (-(w - centre) / width).exp());
+                filters.push(self.range.wavelengths().map(step).collect());
+            }
+        }
+        let lit: Vec<usize> = (0..self.lamps.len()).filter(|&l| self.xyz_of_lamp(l)[1] > 0.0).collect();
+        let weight = share * total / (filters.len() * lit.len().max(1)) as f64;
+        for filter in filters {
+            for &lamp in &lit {
+                let parts = vec![Part { lamp, filter: filter.clone() }];
+                self.items.push(Product { parts, white: self.xyz_of_lamp(lamp), weight, factors: None });
+            }
+        }
+        self
+    }
+
     /// Absolute XYZ of a lamp, integrated at 1 nm.
     #[must_use]
     pub fn xyz_of_lamp(&self, lamp: usize) -> Triple {

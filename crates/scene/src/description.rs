@@ -62,6 +62,13 @@ pub enum MaterialData {
         #[serde(default)]
         roughness: f64,
     },
+    /// A thin filter.
+    Filter {
+        /// The name that messages use.
+        name: String,
+        /// Fraction of light let through.
+        transmittance: usize,
+    },
     /// A dielectric body.
     Dielectric {
         /// The name that messages use.

@@ -173,17 +173,25 @@ fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Resu
         }
         Ok(curve.clone())
     };
+    let fraction = |name: &str, what: &str, index: usize| {
+        let curve = at_least(name, what, index, 0.0)?;
+        let highest = curve.extent(range).1;
+        if highest > 1.0 {
+            let problem = format!(
+                "{what} must not exceed 1, and it reaches {highest:.4}; fractions are meant, not percent"
+            );
+            return Err(error(place(name), problem));
+        }
+        Ok(curve)
+    };
     match data {
         MaterialData::Diffuse { name, reflectance } => {
-            let reflectance = at_least(name, "reflectance", *reflectance, 0.0)?;
-            let highest = reflectance.extent(range).1;
-            if highest > 1.0 {
-                let problem = format!(
-                    "reflectance must not exceed 1, and it reaches {highest:.4}; fractions are meant, not percent"
-                );
-                return Err(error(place(name), problem));
-            }
+            let reflectance = fraction(name, "reflectance", *reflectance)?;
             Ok(Material { name: name.clone(), surface: Surface::Diffuse { reflectance } })
+        }
+        MaterialData::Filter { name, transmittance } => {
+            let transmittance = fraction(name, "transmittance", *transmittance)?;
+            Ok(Material { name: name.clone(), surface: Surface::Filter { transmittance } })
         }
         MaterialData::Conductor { name, n, k, roughness } => {
             let surface = Surface::Conductor {

@@ -289,7 +289,7 @@ impl PathTracer {
             path.throughput = path.throughput.only(lane, factor);
             path.bundle = pass.dispersed.unwrap_or(0);
         }
-        if drawn.transmitted {
+        if drawn.transmitted && model.bounds_media() {
             path.media = beyond;
         }
         if segment >= ROULETTE_FROM {

@@ -1,7 +1,7 @@
 //! The model `general` under all testers: diffuse, smooth and rough conductors, smooth and rough dielectrics
 //! looked at from both sides and beyond the critical angle, with and without dispersion.
 
-use illuminant_illumination::{General, IlluminationModel};
+use illuminant_illumination::{General, IlluminationModel, Metal};
 use illuminant_optics::ggx::Ggx;
 use illuminant_sampling::Lanes;
 use illuminant_verify::chi_square::{ChiSquare, sidak};
@@ -45,8 +45,10 @@ fn diffuse(reflectance: f32) -> Model {
 fn copper(alpha: f32) -> Model {
     let lane = |i: usize| i as f32 / 7.0;
     General::Conductor {
-        n: Lanes(std::array::from_fn(|i| 1.2 - 0.95 * lane(i))),
-        k: Lanes(std::array::from_fn(|i| 2.3 + 1.6 * lane(i))),
+        fresnel: Metal::Index {
+            n: Lanes(std::array::from_fn(|i| 1.2 - 0.95 * lane(i))),
+            k: Lanes(std::array::from_fn(|i| 2.3 + 1.6 * lane(i))),
+        },
         brightness: 0.8,
         facets: facets(alpha),
     }
@@ -98,6 +100,11 @@ fn smooth_cases() -> Vec<Case> {
             cases.push(Case { name, model, site, to_viewer: view(theta), keeps_all });
         };
         add("smooth copper".into(), copper(0.0), Site::new(1.0, 1.0), false);
+        for transmittance in [0.3, 1.0] {
+            let gel =
+                General::Filter { transmittance: Lanes::splat(transmittance), brightness: transmittance };
+            add(format!("filter {transmittance}"), gel, Site::new(1.0, 1.0), transmittance == 1.0);
+        }
         for n in INDICES {
             add(format!("smooth glass {n}"), glass(0.0), Site::new(1.0, n), true);
         }
@@ -221,9 +228,9 @@ fn discrete_lobes_come_as_often_as_they_weigh() {
         assert!(found.p_value >= sidak(0.01, cases.len()), "{}: {found:?}", case.name);
         assert_eq!(found.ended, 0, "{}", case.name);
         let reflectance = by_quadrature(&case.model, &case.site, case.to_viewer, &quadrature()).reflected;
-        // A conductor has one lobe; a dielectric chooses by Fresnel's reflectance.
+        // A conductor and a filter have one lobe; a dielectric chooses by Fresnel's reflectance.
         let wanted = match case.model {
-            General::Conductor { .. } => 1.0,
+            General::Conductor { .. } | General::Filter { .. } => 1.0,
             _ => reflectance[case.site.lanes().next().unwrap()],
         };
         assert!((found.lobes[0].probability - wanted).abs() < 1e-4, "{}: {found:?}", case.name);
