@@ -12,10 +12,12 @@ mod interpolation;
 mod observer;
 mod pseudo_color;
 mod range;
+mod table;
 
-pub use blackbody::planck;
+pub use blackbody::{SECOND_RADIATION_CONSTANT, planck};
 pub use curve::{Curve, CurveError, Outside};
 pub use daylight::{daylight, daylight_chromaticity};
 pub use interpolation::{Extrapolation, Interpolation};
 pub use observer::{LUMINOUS_EFFICACY, Observer};
 pub use range::SpectralRange;
+pub use table::curves_from_csv;

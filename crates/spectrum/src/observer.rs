@@ -10,7 +10,7 @@
 //! The slip at 480 nm is why the book's sums of x̄, ȳ and z̄ differ (106.85, 106.856, 106.935; put right 106.854,
 //! 106.856, 106.845); its section 3.5.1 blames the interpolation.
 
-use crate::{Curve, Outside, SpectralRange};
+use crate::{Curve, Outside, SpectralRange, curves_from_csv};
 use std::sync::LazyLock;
 
 /// The maximum luminous efficacy K_m, lm/W.
@@ -28,7 +28,8 @@ macro_rules! shipped {
     ($file:literal) => {{
         static OBSERVER: LazyLock<Observer> = LazyLock::new(|| {
             let text = include_str!(concat!("../../../python/illuminant/data/observers/", $file));
-            Observer::from_csv(text)
+            let curves = curves_from_csv(text, Outside::Zero);
+            Observer { matching: [0, 1, 2].map(|i| curves[i].clone()) }
         });
         &OBSERVER
     }};
@@ -79,29 +80,6 @@ impl Observer {
             [Self::cie_1931_2deg, Self::cie_1964_10deg, Self::book, Self::book_as_printed];
         let found = Self::NAMES.iter().position(|known| folded(known) == folded(name))?;
         Some(tables[found]())
-    }
-
-    /// Reads `wavelength,x,y,z` lines; lines that do not begin with a digit are comments.
-    fn from_csv(text: &str) -> Self {
-        let rows: Vec<[f64; 4]> = text
-            .lines()
-            .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
-            .map(|line| {
-                let mut row = [0.0; 4];
-                for (slot, field) in row.iter_mut().zip(line.split(',')) {
-                    *slot = field.trim().parse().unwrap_or(f64::NAN);
-                }
-                row
-            })
-            .collect();
-        let wavelengths: Vec<f64> = rows.iter().map(|row| row[0]).collect();
-        let matching = [1, 2, 3].map(|column| {
-            let values = rows.iter().map(|row| row[column]).collect();
-            // The table is compiled in and tested: a failure here is a broken build, not broken input.
-            Curve::new(wavelengths.clone(), values, Outside::Zero)
-                .unwrap_or_else(|_| Curve::constant(f64::NAN))
-        });
-        Self { matching }
     }
 
     /// Absolute tristimulus values of a spectral radiance, K_m Σ L(λ) x̄(λ) Δλ with Δλ = 1 nm over `range`.
