@@ -250,7 +250,7 @@ def test_color_samples() -> Iterator[Table]:
         name="CIE test colour samples",
         quantity="reflectance",
         unit="1",
-        source="CIE 13.3-1995, Method of measuring and specifying colour rendering properties, table 1",
+        source="CIE 13.3-1995, Method of measuring and specifying colour rendering properties",
         provenance=f"{colour_version()}, quality.SDS_TCS['CIE 1995']",
         licence=CIE_LICENCE,
         outside="hold",

@@ -1,7 +1,7 @@
 """What the light of a lamp is like, and which surfaces look alike under it.
 
-- correlated colour temperature and Duv (CIE 15:2018, 9.5; the nearest point of Planck's law in u, v of 1960),
-- dominant or complementary wavelength and excitation purity (CIE 15:2018, 9.3),
+- correlated colour temperature and Duv (CIE 15:2018; the nearest point of Planck's law in u, v of 1960),
+- dominant or complementary wavelength and excitation purity (CIE 15:2018),
 - colour rendering index (CIE 13.3-1995) and, over samples of your own, colour fidelity index (CIE 224:2017),
 - metamers: other reflectances of the same colour under one lamp (Cohen and Kappauf 1982).
 
@@ -283,7 +283,7 @@ def rendering_index(lamp: Spectrum | str, *, step_nm: int = 1) -> RenderingIndex
         >>> found = rendering_index("FL11")
         >>> round(found.general), round(found.special[8]), found.reference
         (83, 25, 'blackbody')
-        >>> [round(r) for r in rendering_index("FL2", step_nm=5).special[:9]]    # as in CIE 15, table T.7
+        >>> [round(r) for r in rendering_index("FL2", step_nm=5).special[:9]]    # as in CIE 15
         [56, 77, 90, 57, 59, 67, 74, 33, -84]
     """
     spectrum = load(lamp) if isinstance(lamp, str) else lamp

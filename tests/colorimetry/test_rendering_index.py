@@ -23,7 +23,7 @@ LAMPS = (
     "HP5",
 )
 
-# CIE 15:2004, table T.7: R_a of FL1 to FL12, and the special indices of three of them.
+# CIE 15:2004: R_a of FL1 to FL12, and the special indices of three of them.
 GENERAL = (76, 64, 57, 51, 72, 59, 90, 95, 90, 81, 83, 83)
 SPECIAL = {
     "FL2": (56, 77, 90, 57, 59, 67, 74, 33, -84, 45, 46, 54, 60, 94),
@@ -42,7 +42,7 @@ def test_what_the_cie_publishes():
 
 
 def anew(name, grid):
-    """CIE 13.3-1995, 5.3 to 5.9, on arrays."""
+    """CIE 13.3-1995 on arrays."""
     functions = core().matching_functions(grid, "CIE 1931 2°").T
     lamp = spectra.load(name).at(grid)
 

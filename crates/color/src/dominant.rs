@@ -3,7 +3,7 @@
 //! A line from the white through a colour meets the locus of monochromatic light at the dominant wavelength λ_d; where
 //! it meets the line of purples instead, the line drawn the other way gives the complementary wavelength λ_c. The
 //! excitation purity is p_e = |xy − w| / |b − w|, with b the point of the boundary on the side of the colour: 0 for the
-//! white, 1 on the boundary (CIE 15:2018, 9.3; Wyszecki and Stiles 1982, 3.3.6).
+//! white, 1 on the boundary (CIE 15:2018; Wyszecki and Stiles 1982).
 //!
 //! Between its points the locus runs as the matching functions do, in straight lines. Its ends are the outermost
 //! wavelengths with x̄ + ȳ + z̄ ≥ 0.005: beyond, tables of four decimals have no chromaticity left, and in the CIE's

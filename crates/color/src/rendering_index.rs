@@ -2,7 +2,7 @@
 //!
 //! Fourteen reflectances are seen under the lamp and under a reference of the same correlated colour temperature: a
 //! blackbody below 5,000 K, daylight from there on. Colours are compared in W\*U\*V\* of 1964 after a shift of the
-//! lamp's chromaticity to that of the reference (CIE 13.3, 5.7):
+//! lamp's chromaticity to that of the reference (CIE 13.3):
 //!
 //! c = (4 − u − 10v)/v, d = (1.708v + 0.404 − 1.481u)/v,
 //! u' = (10.872 + 0.404 c_r/c_k c − 4 d_r/d_k d)/(16.518 + 1.481 c_r/c_k c − d_r/d_k d), v' = 5.520/(the same),

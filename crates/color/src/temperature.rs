@@ -1,7 +1,7 @@
 //! Correlated colour temperature.
 //!
 //! The temperature of the blackbody whose chromaticity lies nearest to that of a light in the CIE 1960 diagram,
-//! u = 4X/(X + 15Y + 3Z), v = 6Y/(X + 15Y + 3Z) (CIE 15:2018, 9.5), and how far away it lies: Duv, positive above the
+//! u = 4X/(X + 15Y + 3Z), v = 6Y/(X + 15Y + 3Z) (CIE 15:2018), and how far away it lies: Duv, positive above the
 //! locus, on the green side (ANSI C78.377; Ohno 2013). Tables of the locus (Robertson 1968) and fits to it are not
 //! used: the nearest point is found on Planck's law itself, summed at 1 nm, where the line to the light stands upright
 //! on the locus. So the error is that of rounding.
@@ -49,7 +49,7 @@ const STEPS: usize = 200;
 /// ```
 ///
 /// # Errors
-/// [`TemperatureError`]: no chromaticity, out of range, or |Duv| above 0.05 (CIE 15:2018, 9.5).
+/// [`TemperatureError`]: no chromaticity, out of range, or |Duv| above 0.05 (CIE 15:2018).
 pub fn correlated_color_temperature(
     xy: [f64; 2],
     observer: &Observer,

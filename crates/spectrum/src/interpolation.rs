@@ -5,7 +5,7 @@
 //! | linear (default) | – | straight lines; the book's rule (III.7.1), and that of [`Curve::at`] |
 //! | pchip | – | cubic pieces that rise and fall only where the points do (Fritsch and Carlson 1980, slopes of Fritsch and Butland 1984) |
 //! | cubic | – | natural cubic spline |
-//! | sprague | 6 points at equal steps | fifth degree with continuous second derivative; recommended by the CIE for equal steps (CIE 167:2005; Westland, Ripamonti and Cheung 2012, 4.3) |
+//! | sprague | 6 points at equal steps | fifth degree with continuous second derivative; recommended by the CIE for equal steps (CIE 167:2005) |
 //!
 //! Linear and pchip stay between their neighbours. The other two can swing below zero beside a narrow peak; a curve
 //! without negative points that would do so is refused, with the wavelength, and never clamped. The same holds for
