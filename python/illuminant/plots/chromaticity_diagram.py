@@ -108,7 +108,7 @@ def chromaticity(
             below = plane.axes[0] == "u'"
             axes.legend(handles=handles, loc="lower right" if below else "upper right")
         # Names are placed on the paper, so its measures have to be known.
-        figure.canvas.draw()
+        figure.draw_without_rendering()
         taken = _name_wavelengths(axes, plane, locus)
         _name_points(axes, plane, given, temperatures, taken, numbered)
     return figure
@@ -272,12 +272,19 @@ def _name_points(
     numbered: bool,
 ) -> None:
     """Names or numbers of points, then colour temperatures where they do not cover these."""
+    import numpy as np
+
     size = 7.0 if numbered else 8.0
     names = list(points)
     texts = [str(number) for number in range(1, len(names) + 1)] if numbered else names
     obstacles = list(taken)
     if temperatures:
         obstacles += labels.around(_on_paper(axes, _planckian_points(plane)), 1.0)
+    if plane.primaries_nm:
+        red, green, blue = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
+        for a, b in ((red, green), (green, blue), (blue, red)):
+            edge = a + (b - a) * np.linspace(0, 1, 100)[:, np.newaxis]
+            obstacles += labels.around(_on_paper(axes, edge), 1.0)
     where = [_on_paper(axes, points[name])[0] for name in names]
     centres = labels.place(where, texts, obstacles, size)
     for name, text, at, (x, y) in zip(names, texts, where, centres, strict=True):
@@ -292,4 +299,6 @@ def _name_points(
         for text, place, at, (x, y) in zip(
             texts, marked, where, labels.place(where, texts, obstacles, 6.5), strict=True
         ):
-            _name(axes, text, place, (x - at[0], y - at[1]), 6.5)
+            # A name far from its mark would seem to belong to another.
+            if abs(x - at[0]) < 27 and abs(y - at[1]) < 14:
+                _name(axes, text, place, (x - at[0], y - at[1]), 6.5)

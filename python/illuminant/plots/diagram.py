@@ -143,7 +143,7 @@ class Diagram:
         elif spectrum.quantity == "reflectance" and light is not None:
             xyz = self.observer.sample(spectrum, light)
         else:
-            kind = f"is {spectrum.quantity!r}" if spectrum.quantity else "does not say its quantity"
+            kind = f"holds {spectrum.quantity}" if spectrum.quantity else "does not say what it holds"
             raise UsageError(
                 f"{spectrum.name} {kind}: expected an emission or a reflectance for a point in a diagram."
             )

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 
 __all__ = ["AC1C2", "INTEGRATION_NM", "Functions", "for_primaries", "in_space", "named", "names"]
 
-INTEGRATION_NM = (380, 780)
-"""First and last wavelength of the sums for tristimulus values, by 1 nm, as the core takes them."""
+INTEGRATION_NM = (360, 830)
+"""First and last wavelength of the sums for tristimulus values, by 1 nm: all of the CIE's tables (CIE 15:2018)."""
 
 AC1C2 = ((-0.0177, 1.0090, 0.0073), (-1.5370, 1.0821, 0.3209), (0.1946, -0.2045, 0.5264))
 """XYZ to A, C1, C2, the axes of Meyer along which the eye's responses vary most (Meyer 1988; book eq 3.6)."""
@@ -80,7 +80,7 @@ class Functions:
         Example:
             >>> xyz = named("1931").sample(spectra.load("D65"))
             >>> (xyz / xyz.sum()).round(4).tolist()
-            [0.3127, 0.3291, 0.3582]
+            [0.3127, 0.329, 0.3583]
         """
         import numpy as np
 

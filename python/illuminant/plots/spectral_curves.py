@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
     from illuminant.spectra import Spectrum
 
-__all__ = ["curve_points", "curves"]
+__all__ = ["curve_points", "curves", "value_for_normalising"]
 
 
 def curve_points(
@@ -49,15 +50,28 @@ def curve_points(
     wavelengths = np.array([first, *inner, last])
     values = spectrum.at(wavelengths)
     if normalise_nm is not None:
-        within = spectrum.range_nm[0] <= normalise_nm <= spectrum.range_nm[1]
-        divisor = float(spectrum.at(normalise_nm)) if within else 0.0
-        if not divisor > 0:
-            what = f"is {divisor:g}" if within else "is not known"
-            raise UsageError(
-                f"{spectrum.name} {what} at {normalise_nm:g} nm: expected a value above zero for normalising."
-            )
-        values = values / divisor
+        values = values / value_for_normalising(spectrum, normalise_nm)
     return wavelengths, values
+
+
+def value_for_normalising(spectrum: Spectrum, wavelength_nm: float) -> float:
+    """The value of a curve by which it is divided to be 1 at a wavelength.
+
+    Raises:
+        UsageError: the curve is not known there, or is not above zero.
+
+    Example:
+        >>> value_for_normalising(load("D65"), 560)
+        100.0
+    """
+    first, last = spectrum.range_nm
+    value = float(spectrum.at(wavelength_nm)) if first <= wavelength_nm <= last else math.nan
+    if not value > 0:
+        what = "is not known" if math.isnan(value) else f"is {value:g}"
+        raise UsageError(
+            f"{spectrum.name} {what} at {wavelength_nm:g} nm: expected a value above zero for normalising."
+        )
+    return value
 
 
 def _axis_label(spectrum: Spectrum) -> str:
