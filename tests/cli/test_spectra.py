@@ -44,7 +44,7 @@ def on_a_terminal(*arguments: str, columns: int = 80) -> str:
 
 
 @pytest.mark.parametrize(
-    "verb", ["spectra", "spectra list", "spectra show", "spectra plot"]
+    "verb", ["spectra", "spectra list", "spectra show", "spectra plot", "spectra convert"]
 )
 def test_every_help_has_an_example_and_fits_80_columns(verb: str, inside: Command) -> None:
     out = inside(*verb.split(), "--help").stdout

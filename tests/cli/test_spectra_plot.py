@@ -29,6 +29,7 @@ def written(folder: Path, inside: Command, *arguments: str) -> tuple[str, str]:
         (["--space", "ac1c2", "--plain", "-o", "a.svg"], "a.svg", "matching functions"),
         (["--matching", "445,535,630"], "matching-445-535-630.png", "matching functions"),
         (["--chromaticity", "445,535,630"], "chromaticity-445-535-630.png", "a chromaticity diagram"),
+        (["--chromaticity", "445,535,630", "--projection", "-o", "c.svg"], "c.svg", "a chromaticity diagram in space"),
         (
             ["D65", "ColorChecker/red", "--light", "A", "--chromaticity", "uv", "--gamut", "srgb", "-o", "b.svg"],
             "b.svg",
@@ -99,6 +100,9 @@ def test_two_files_of_one_name_are_two_points(tmp_path: Path, inside: Command) -
         (["--space", "foo"], "There is no space 'foo': expected xyz, ac1c2 or an RGB system"),
         (["--chromaticity", "yx"], "There is no diagram 'yx': expected xy, uv, or three wavelengths"),
         (["--chromaticity", "xy", "--gamut", "sGRB"], "There is no RGB system 'sGRB': known are sRGB"),
+        (["--chromaticity", "xy", "--projection"], "--chromaticity xy: expected three wavelengths in nm"),
+        (["D65", "--chromaticity", "1,2,3", "--projection"], "--projection shows three lights by themselves"),
+        (["--matching", "445,535,630", "--projection"], "--projection does not go with matching functions."),
         (["--chromaticity", "xy", "--normalise", "5"], "--normalise does not go with a chromaticity diagram."),
         (["gold.n", "--chromaticity", "xy"], "gold.n holds n: expected an emission or a reflectance"),
         (["D65", "--light", "A", "--chromaticity", "xy"], "--light goes with reflectances, and none is named."),

@@ -13,6 +13,7 @@ from illuminant.plots import labels
 from illuminant.plots.diagram import diagram
 from illuminant.plots.monochromatic import spectrum
 from illuminant.plots.observer import for_primaries, named
+from illuminant.plots.projection_space import ON_PAPER, on_plane
 from illuminant.plots.spectral_curves import curve_points
 from illuminant.plots.wavelength_axis import shown_range
 from illuminant.spectra import Spectrum
@@ -47,7 +48,9 @@ def test_labels_name_quantity_and_unit() -> None:
     radiance = Spectrum("lamp", [400, 700], [1, 2], "zero", "W sr-1 m-2 nm-1", quantity="emission")
     assert plots.curves([radiance]).axes[0].get_ylabel() == "power (W sr⁻¹ m⁻² nm⁻¹)"
     assert plots.curves(load("book/copper")).axes[0].get_ylabel() == "reflectance"
-    assert plots.curves(load("gold.n", "gold.k")).axes[0].get_ylabel().startswith("index of refraction")
+    assert plots.curves(load("gold.n")).axes[0].get_ylabel() == "index of refraction n"
+    both = plots.curves(load("gold.n", "gold.k")).axes
+    assert [axes.get_ylabel() for axes in both] == ["index of refraction n, extinction coefficient k"]
 
 
 def test_a_second_quantity_has_its_own_axis_and_a_third_is_refused() -> None:
@@ -119,6 +122,19 @@ def test_the_strip_is_the_colour_of_each_wavelength() -> None:
     assert green[1] > 150 and green[1] > 2 * max(green[0], green[2])
     assert red[0] > 150 and red[1] == red[2] == 0
     assert dark.max() <= 1
+
+
+def test_the_projection_is_the_diagram_seen_along_one_axis() -> None:
+    """Book figures 3.6 and 3.7: points of the plane L + M + H = 1, of which the diagram shows H and M."""
+    plane = diagram("445,535,630")
+    wavelengths, locus = plane.spectral_locus()
+    flat = on_plane(for_primaries(named(), (445, 535, 630)).at(wavelengths))
+    np.testing.assert_allclose(flat.sum(axis=1), 1.0, rtol=1e-12)
+    np.testing.assert_allclose(flat[:, [2, 1]], locus, atol=1e-12)
+    axes = plots.projection((445, 535, 630)).axes[0]
+    curve = axes.collections[1].get_segments()
+    drawn = np.array([piece[0] for piece in curve])
+    np.testing.assert_allclose(drawn, flat[10:310] @ np.array(ON_PAPER), atol=1e-12)
 
 
 @pytest.mark.parametrize("kind", ["xy", "uv", "445,535,630"])

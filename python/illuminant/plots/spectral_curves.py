@@ -75,13 +75,11 @@ def value_for_normalising(spectrum: Spectrum, wavelength_nm: float) -> float:
 
 
 def _axis_label(spectrum: Spectrum) -> str:
-    """What the vertical axis of a curve shows, with its unit."""
+    """What the vertical axis of a curve other than n and k shows, with its unit."""
     if spectrum.quantity == "emission":
         return "relative power" if spectrum.unit == "relative" else f"power ({_typeset(spectrum.unit)})"
     if spectrum.quantity == "reflectance":
         return "reflectance"
-    if spectrum.quantity in ("n", "k"):
-        return "index of refraction n, extinction coefficient k"
     return "value" if spectrum.unit in ("", "1") else f"value ({_typeset(spectrum.unit)})"
 
 
@@ -142,7 +140,9 @@ def curves(
         raise UsageError("A plot of curves needs at least one spectrum.")
     shown = shown_range(spectra, range_nm)
     points = [curve_points(s, shown, normalise_nm) for s in spectra]
-    labels = [_axis_label(s) for s in spectra]
+    names = {"n": "index of refraction n", "k": "extinction coefficient k"}
+    indices = ", ".join(text for key, text in names.items() if any(s.quantity == key for s in spectra))
+    labels = [indices if s.quantity in names else _axis_label(s) for s in spectra]
     if normalise_nm is not None:
         labels = [f"relative to the value at {normalise_nm:g} nm"] * len(spectra)
     kinds = list(dict.fromkeys(labels))

@@ -78,6 +78,9 @@ def plot(
             show_default=False,
         ),
     ] = None,
+    projection: Annotated[
+        bool, typer.Option("--projection", help="With --chromaticity A,B,C: its plane in space.")
+    ] = False,
     gamut: Annotated[
         list[str] | None,
         typer.Option(
@@ -120,11 +123,12 @@ def plot(
         "--range": wavelengths is not None,
         "--observer": observer is not None,
         "--space": space is not None,
+        "--projection": projection,
         "--gamut": bool(gamut),
         "--light": light is not None,
         "--planckian": planckian is not None,
     }
-    kind, allowed = _kind(words or [], matching, chromaticity, observer or space)
+    kind, allowed = _kind(words or [], matching, chromaticity, observer or space, projection)
     for option, is_given in given.items():
         if is_given and option not in allowed:
             raise UsageError(f"{option} does not go with {kind}.")
@@ -132,7 +136,13 @@ def plot(
     path = style.check_format(output or f"{_stem(words or [], matching, chromaticity, observer, space)}.png")
     look: dict[str, Any] = {"plain": plain} | ({"size": _inches(size)} if size else {})
     spectra = [load(word, quantity, column) for word in words or []]
-    if chromaticity is not None:
+    if chromaticity is not None and projection:
+        from illuminant.plots import projection as in_space
+
+        wanted = "three wavelengths in nm, such as 445,535,630, with --projection"
+        lights = numbers(chromaticity, "--chromaticity", wanted)
+        figure = in_space(lights, observer=observer or "1931", **look)
+    elif chromaticity is not None:
         figure = _diagram(spectra, chromaticity, observer, light, gamut or [], planckian, look)
     elif spectra:
         from illuminant.plots import curves
@@ -154,7 +164,7 @@ def plot(
 
 
 def _kind(
-    words: list[str], matching: str | None, chromaticity: str | None, observer: str | None
+    words: list[str], matching: str | None, chromaticity: str | None, observer: str | None, projection: bool
 ) -> tuple[str, set[str]]:
     """Which plot is asked for, in words, and the options that belong to it."""
     from illuminant.errors import UsageError
@@ -165,6 +175,10 @@ def _kind(
                 "--matching and --chromaticity are two plots; for the diagram of three lights write "
                 f"--chromaticity {matching}."
             )
+        if projection:
+            if words:
+                raise UsageError(f"--projection shows three lights by themselves, without {words[0]}.")
+            return "a chromaticity diagram in space", {"--observer", "--projection"}
         return "a chromaticity diagram", {"--observer", "--gamut", "--light", "--planckian"}
     if matching is not None or observer is not None:
         if words:
@@ -229,7 +243,7 @@ def _diagram(
     if light is not None and not any(s.quantity == "reflectance" for s in spectra):
         raise UsageError("--light goes with reflectances, and none is named.")
     plane = diagram(kind, observer or "1931")
-    points = {}
+    points: dict[str, Any] = {}
     for spectrum in spectra:
         alike = sum(name.partition(" (")[0] == spectrum.name for name in points)
         name = f"{spectrum.name} ({alike + 1})" if alike else spectrum.name
