@@ -105,11 +105,24 @@ def _derived_lines(derived: dict[str, Any]) -> list[tuple[str, str]]:
                 + f" ({derived['observer']}, white Y = 1)",
             ),
             ("", f"L* {lightness:.2f}, a* {a:.2f}, b* {b:.2f}"),
-            ("", f"sRGB {derived['srgb']}{clipped}"),
+            ("", f"sRGB {derived['srgb']}{_swatch(derived['srgb'])}{clipped}"),
         ]
     if "value" in derived:
         return [(f"at {derived['wavelength_nm']:g} nm", f"{derived['value']:.6g}")]
     return []
+
+
+def _swatch(code: str) -> str:
+    """A patch of a colour (`#rrggbb`), on a terminal that says that it shows any; else nothing."""
+    import os
+    import sys
+
+    if not sys.stdout.isatty() or "NO_COLOR" in os.environ:
+        return ""
+    if os.environ.get("COLORTERM") not in ("truecolor", "24bit"):
+        return ""
+    red, green, blue = (int(code[i : i + 2], 16) for i in (1, 3, 5))
+    return f" \x1b[48;2;{red};{green};{blue}m    \x1b[0m"
 
 
 def block_plot(spectrum: Spectrum, width: int, rows: int = 5) -> list[str]:
