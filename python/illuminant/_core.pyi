@@ -5,7 +5,7 @@ interpreter. Users find all of this under friendlier names in the modules of the
 """
 
 from collections.abc import Callable, Sequence
-from typing import Any, TypedDict
+from typing import Any, TypeAlias, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,13 +35,81 @@ def planck(wavelengths_nm: NDArray[np.float64], temperature_k: float) -> NDArray
 def daylight(wavelengths_nm: NDArray[np.float64], cct_k: float) -> NDArray[np.float64]:
     """Relative power of CIE daylight, 1 at 560 nm, for a colour temperature of 4,000–25,000 K (CIE 15:2018)."""
 
+def observers() -> list[str]:
+    """The names of the observers, the default first."""
+
+def matching_functions(wavelengths_nm: NDArray[np.float64], observer: str) -> NDArray[np.float64]:
+    """x̄, ȳ and z̄ of an observer at any wavelengths, (n, 3); straight lines between its points, zero outside."""
+
 def xyz(
     wavelengths_nm: Sequence[float] | NDArray[np.float64],
     values: Sequence[float] | NDArray[np.float64],
     outside: str,
     range_nm: Sequence[int] = ...,
+    observer: str = ...,
 ) -> NDArray[np.float64]:
-    """683 lm/W times the 1 nm sums of a curve with the CIE 1931 2° functions; `outside` is 'zero' or 'hold'."""
+    """683 lm/W times the 1 nm sums of a curve with an observer's functions; `outside` is 'zero' or 'hold'."""
+
+_Points: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64]]
+_Curve: TypeAlias = tuple[Sequence[float] | NDArray[np.float64], Sequence[float] | NDArray[np.float64], str]
+_Made: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], str]
+
+def curve_sum(a: _Curve, b: _Curve) -> _Made:
+    """Sum of two curves, exact at every wavelength. A curve is its wavelengths, values and rule outside."""
+
+def curve_difference(a: _Curve, b: _Curve) -> _Made:
+    """First curve minus the second; may be negative."""
+
+def curve_product(a: _Curve, b: _Curve) -> _Made:
+    """Product of two curves, exact at their points and at every whole nm."""
+
+def curve_area(curve: _Curve, range_nm: Sequence[int]) -> float:
+    """Sum of a curve at every whole nm of a range."""
+
+def curve_normalised(curve: _Curve, wavelength_nm: float, value: float) -> _Made:
+    """A curve times what makes it `value` at a wavelength."""
+
+def curve_between(curve: _Curve, first_nm: float, last_nm: float) -> _Made:
+    """The part of a curve from one wavelength to another, with points at both."""
+
+def curve_resampled(
+    curve: _Curve,
+    wavelengths_nm: Sequence[float] | NDArray[np.float64],
+    interpolation: str,
+    extrapolation: str,
+) -> _Made:
+    """A curve on other wavelengths; how it runs between and beyond its points (spectrum.INTERPOLATIONS, ...)."""
+
+def curve_pseudo_color(curve: _Curve, band_nm: Sequence[float], visible_nm: Sequence[float]) -> _Made:
+    """A curve whose band is shifted and stretched onto visible wavelengths (book III.8)."""
+
+def correlated_color_temperature(xy: Sequence[float], observer: str) -> tuple[float, float]:
+    """Temperature (K) of the nearest blackbody in (u, v) of 1960, and Duv (CIE 15:2018)."""
+
+def dominant_wavelength(
+    xy: Sequence[float], white: Sequence[float], observer: str
+) -> tuple[float, bool, float, list[float]]:
+    """Dominant wavelength (nm), whether it is the complementary one, excitation purity, and x, y of the boundary."""
+
+def rendering_index(
+    wavelengths_nm: Sequence[float] | NDArray[np.float64],
+    values: Sequence[float] | NDArray[np.float64],
+    outside: str,
+) -> tuple[float, list[float], float, float, float]:
+    """R_a, R_1 to R_14, CCT (K), Duv, and the distance from the reference in (u, v) of 1960 (CIE 13.3-1995)."""
+
+def metamer(
+    reflectance: _Curve,
+    lamp: _Curve,
+    observer: str,
+    range_nm: Sequence[int],
+    seed: int,
+    distance: float | None,
+) -> tuple[_Points, float, float]:
+    """Wavelengths and values of a reflectance of the same colour, its distance, and the largest for this seed."""
+
+def fundamental(reflectance: _Curve, lamp: _Curve, observer: str, range_nm: Sequence[int]) -> _Points:
+    """Wavelengths and values of the part of a reflectance that makes its colour (Cohen and Kappauf 1982)."""
 
 def rgb_systems() -> list[str]:
     """The names of the RGB systems."""

@@ -272,27 +272,18 @@ class Curves:
             return None
         if system is None:
             return None
-        upsample = core().upsample_albedo if table.role == "albedo" else core().upsample_emission
+        make = spectra.rgb_albedo if table.role == "albedo" else spectra.rgb_emission
         try:
-            wavelengths, values, error = upsample(rgb, system)
-        except ValueError as mistake:
-            self.report.add((*path, "rgb"), str(mistake), kind="spectrum")
+            spectrum, error = make(rgb, system)
+        except DataError as mistake:
+            self.report.add((*path, "rgb"), mistake.message, kind="spectrum")
             return None
         if error > WARN_DELTA_E:
             place = ".".join(str(part) for part in path)
             self.warnings.append(
                 f"{place}: no smooth spectrum has this RGB; the nearest is ΔE00 {error:.2f} away"
             )
-        reflects = table.role == "albedo"
-        return Spectrum(
-            f"rgb {' '.join(f'{value:g}' for value in rgb)}",
-            wavelengths.tolist(),
-            values.tolist(),
-            "hold" if reflects else "zero",
-            "1" if reflects else "relative",
-            f"Jakob and Hanika (2019) from {system}",
-            "reflectance" if reflects else "emission",
-        )
+        return spectrum
 
     def system(self, name: str | None, path: Path) -> str | None:
         """The name of an RGB system, sRGB where none is given, or None after reporting that there is no such one."""

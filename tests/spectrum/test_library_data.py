@@ -84,7 +84,8 @@ def test_the_script_makes_these_very_bytes(maker):
 def test_every_table_is_in_the_index():
     listed = {entry.file for entry in spectra.entries()}
     on_disk = {path.relative_to(DATA).as_posix() for path in DATA.rglob("*.csv")}
-    assert on_disk - listed == {"library.csv", "observers/cie_1931_2deg.csv"}
+    observers = {f"observers/{name}.csv" for name in OBSERVERS}
+    assert on_disk - listed == {"library.csv", *observers}
     assert listed <= on_disk
 
 

@@ -5,6 +5,7 @@
 
 mod arrays;
 mod color;
+mod colorimetry;
 mod display;
 mod scene;
 mod spectrum;
@@ -20,6 +21,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     toml::register(m)?;
     spectrum::register(m)?;
     color::register(m)?;
+    colorimetry::register(m)?;
     display::register(m)?;
     scene::register(m)?;
     technique::register(m)?;

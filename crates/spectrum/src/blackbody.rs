@@ -1,5 +1,12 @@
 //! Blackbody radiation.
 
+const H: f64 = 6.626_070_15e-34;
+const C: f64 = 299_792_458.0;
+const K_B: f64 = 1.380_649e-23;
+
+/// The second radiation constant c₂ = hc/k_B, nm·K, by the SI of 2019: 1.438 776 877 × 10⁷.
+pub const SECOND_RADIATION_CONSTANT: f64 = H * C / K_B * 1e9;
+
 /// Spectral radiance of a blackbody, W·sr⁻¹·m⁻²·nm⁻¹, at a wavelength in nm and a temperature in K.
 ///
 /// L(λ, T) = c₁ λ⁻⁵ / (exp(c₂ / λT) − 1), with c₁ = 2hc² and c₂ = hc/k_B (Planck 1900), in vacuum, with the
@@ -15,9 +22,6 @@
 /// ```
 #[must_use]
 pub fn planck(wavelength_nm: f64, temperature_k: f64) -> f64 {
-    const H: f64 = 6.626_070_15e-34;
-    const C: f64 = 299_792_458.0;
-    const K_B: f64 = 1.380_649e-23;
     let wavelength_m = wavelength_nm * 1e-9;
     let exponent = H * C / (wavelength_m * K_B * temperature_k);
     2.0 * H * C * C / wavelength_m.powi(5) / exponent.exp_m1() * 1e-9

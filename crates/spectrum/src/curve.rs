@@ -49,6 +49,49 @@ pub enum CurveError {
         /// The value there.
         value: f64,
     },
+    /// A product of two curves that are zero outside ranges which share nothing.
+    #[error("the two ranges do not overlap, so the product is zero everywhere")]
+    Disjoint,
+    /// A curve cannot be brought to a value where it is zero.
+    #[error("the spectrum is zero at {wavelength_nm} nm; choose a wavelength where it is not")]
+    ZeroAt {
+        /// The wavelength, nm.
+        wavelength_nm: f64,
+    },
+    /// A wavelength beyond the points, where that is an error.
+    #[error("{wavelength_nm} nm lies outside {first_nm} to {last_nm} nm, where the spectrum is known")]
+    Unknown {
+        /// The wavelength asked for, nm.
+        wavelength_nm: f64,
+        /// The first known, nm.
+        first_nm: f64,
+        /// The last known, nm.
+        last_nm: f64,
+    },
+    /// An interpolated or extrapolated value below zero where no point is.
+    #[error(
+        "between or beyond its points the spectrum would become {value} at {wavelength_nm} nm; choose linear or pchip \
+         interpolation and no linear extrapolation, which keep it from turning negative"
+    )]
+    Undershoot {
+        /// The wavelength, nm.
+        wavelength_nm: f64,
+        /// The value there.
+        value: f64,
+    },
+    /// Sprague's interpolation of unequal steps.
+    #[error("sprague interpolation needs at least six points at equal steps; choose linear, pchip or cubic")]
+    Uneven,
+    /// A pair of wavelengths that is no band.
+    #[error(
+        "a band runs from one positive wavelength to a larger one, and {first_nm} to {last_nm} nm does not"
+    )]
+    Band {
+        /// The first, nm.
+        first_nm: f64,
+        /// The last, nm.
+        last_nm: f64,
+    },
 }
 
 /// A curve on wavelength, linear between its points.
