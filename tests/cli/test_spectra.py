@@ -16,14 +16,14 @@ from illuminant import spectra
 Command = Callable[..., "subprocess.CompletedProcess[str]"]
 
 
-def on_a_terminal(*arguments: str, columns: int = 80) -> str:
-    """What the command prints on a terminal of a width, without the codes for bold type."""
+def on_a_terminal(*arguments: str, **environment: str) -> str:
+    """What the command prints on a terminal of 80 columns; plain unless the environment says otherwise."""
     controller, terminal = pty.openpty()
     process = subprocess.Popen(
         [str(Path(sys.executable).with_name("illuminant")), *arguments],
         stdout=terminal,
         stdin=subprocess.DEVNULL,
-        env={**os.environ, "COLUMNS": str(columns), "NO_COLOR": "1"},
+        env={**os.environ, "COLUMNS": "80", **(environment or {"NO_COLOR": "1"})},
     )
     os.close(terminal)
     parts: list[bytes] = []
@@ -156,7 +156,38 @@ def test_a_lamp_shows_its_chromaticity(inside: Command) -> None:
     # CIE 15:2004, table T.3: 0.31272, 0.32903.
     assert found["derived"]["x"] == pytest.approx(0.31272, abs=2e-5)
     assert found["derived"]["y"] == pytest.approx(0.32903, abs=2e-5)
-    assert found["area"] == pytest.approx(np.trapezoid(found["values"], found["wavelengths_nm"]))
+    every_nm = np.interp(np.arange(300, 781), found["wavelengths_nm"], found["values"])
+    assert found["area"] == pytest.approx(every_nm.sum())
+
+
+def test_a_lamp_shows_its_colour_temperature_and_how_it_renders_colours(inside: Command) -> None:
+    """CIE 15:2004, table T.8.2: FL2 has 4230 K and R_a 64; a green line has neither."""
+    derived = shown(inside, "FL2")["derived"]
+    assert derived["cct_k"] == pytest.approx(4230, abs=10) and derived["ra"] == pytest.approx(64, abs=0.5)
+    out = inside("spectra", "show", "FL2", "--no-values").stdout
+    assert "temperature   4225 K, Duv 0.0019; colour rendering R_a 64." in out
+
+
+def test_a_lamp_far_from_all_blackbodies_has_no_temperature(tmp_path: Path, inside: Command) -> None:
+    (tmp_path / "green.csv").write_text("# quantity: emission\n520,0\n530,1\n540,0\n")
+    derived = shown(inside, "green.csv", cwd=tmp_path)["derived"]
+    assert derived["y"] > 0.75 and not {"cct_k", "duv", "ra"} & set(derived)
+
+
+def test_a_material_file_shows_its_words(tmp_path: Path, inside: Command) -> None:
+    """The copper of the book (III.7.1)."""
+    (tmp_path / "copper.mat").write_text(
+        "# Material: copper\nconductor\nn 0.617\nk 2.63\n380 0.07\n700 0.755\n"
+    )
+    found = shown(inside, "copper.mat", cwd=tmp_path)
+    assert (found["n"], found["k"], found["conductor"], found["quantity"]) == (
+        0.617,
+        2.63,
+        True,
+        "reflectance",
+    )
+    out = inside("spectra", "show", "copper.mat", cwd=tmp_path).stdout
+    assert "\nmaterial      n 0.617, k 2.63, conductor\n" in out
 
 
 def test_a_radiance_shows_its_luminance_too(inside: Command) -> None:
@@ -216,6 +247,14 @@ def test_a_terminal_shows_it_all_in_80_columns(name: str) -> None:
     spectrum = spectra.load(name)
     words = out.split()
     assert all(f"{value:.6g}" in words for value in spectrum.values)
+
+
+def test_a_terminal_of_any_colour_shows_a_patch_of_it() -> None:
+    arguments = ("spectra", "show", "ColorChecker/red", "--no-values")
+    code = on_a_terminal(*arguments).split("sRGB #")[1][:6]
+    patch = ";".join(str(int(code[i : i + 2], 16)) for i in (0, 2, 4))
+    assert f"\x1b[48;2;{patch}m    \x1b[0m" in on_a_terminal(*arguments, COLORTERM="truecolor")
+    assert "\x1b[48" not in on_a_terminal(*arguments, COLORTERM="")
 
 
 def test_the_block_plot_has_its_peak_where_the_curve_has(inside: Command) -> None:

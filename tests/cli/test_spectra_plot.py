@@ -96,7 +96,7 @@ def test_two_files_of_one_name_are_two_points(tmp_path: Path, inside: Command) -
         (["--matching", "445,535,inf"], "--matching 445,535,inf: expected three wavelengths"),
         (["--matching", "445,535,900"], "expected three different wavelengths from 360 to 830 nm"),
         (["--matching", "1,2,3", "--chromaticity", "xy"], "--matching and --chromaticity are two plots"),
-        (["--observer", "1913"], "There is no observer '1913' in the library (did you mean \"1931\"?)"),
+        (["--observer", "1913"], "There is no observer '1913' (did you mean \"1931\"?): known are 1931, 1964, book"),
         (["--space", "foo"], "There is no space 'foo': expected xyz, ac1c2 or an RGB system"),
         (["--chromaticity", "yx"], "There is no diagram 'yx': expected xy, uv, or three wavelengths"),
         (["--chromaticity", "xy", "--gamut", "sGRB"], "There is no RGB system 'sGRB': known are sRGB"),

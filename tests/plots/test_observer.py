@@ -88,7 +88,9 @@ def test_primaries_of_which_one_matches_another_are_refused() -> None:
 
 
 def test_unknown_names_are_refused_with_those_there_are() -> None:
-    with pytest.raises(UsageError, match=r"no observer '1913'.*did you mean \"1931\".*known are .*1931"):
+    with pytest.raises(
+        UsageError, match=r"no observer '1913' \(did you mean \"1931\"\?\): known are 1931, 1964, book"
+    ):
         named("1913")
     with pytest.raises(UsageError, match=r"no space 'ac1c3' \(did you mean \"ac1c2\"\?\)"):
         in_space(EYE, "ac1c3")

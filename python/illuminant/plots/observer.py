@@ -9,7 +9,7 @@ so each function is 1 at its own primary and 0 at the two others, and negative w
 the side of the test light. A space that is a matrix on XYZ gives functions in the same way: AC1C2 of Meyer (1988; book
 eq 3.6) or an RGB system, whose functions sample a spectrum directly into its RGB (book 3.3).
 
-Tables are those of the folder `data/observers` of the library, at 1 nm unless the table is coarser.
+All tables are taken by 1 nm, with straight lines between the entries of a coarser one.
 
 Example:
     >>> lmh = for_primaries(named("1931"), (445, 535, 630))
@@ -25,7 +25,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from illuminant import rgb_system, spectra
+from illuminant import colorimetry, rgb_system
 from illuminant.core import core
 from illuminant.errors import UsageError, suggestion
 
@@ -78,7 +78,8 @@ class Functions:
         For the matching functions of an observer these are tristimulus values without the factor of 683 lm/W.
 
         Example:
-            >>> xyz = named("1931").sample(spectra.load("D65"))
+            >>> from illuminant.spectra import load
+            >>> xyz = named("1931").sample(load("D65"))
             >>> (xyz / xyz.sum()).round(4).tolist()
             [0.3127, 0.329, 0.3583]
         """
@@ -99,52 +100,50 @@ class Functions:
 
 
 def names() -> list[str]:
-    """The observers of the library by their short names.
+    """Short names of the observers of `illuminant.colorimetry`, which are easy to type.
 
     Example:
-        >>> "1931" in names()
-        True
+        >>> names()
+        ['1931', '1964', 'book', 'book-as-printed']
     """
-    return sorted(_short(path.stem) for path in (spectra.DATA / "observers").glob("*.csv"))
+    return [_short(name) for name in colorimetry.observers()]
 
 
-def _short(stem: str) -> str:
-    """`1931` of `cie_1931_2deg`."""
-    return re.sub(r"^cie_|_\d+deg$", "", stem).replace("_", "-")
+def _short(name: str) -> str:
+    """`1931` of `CIE 1931 2°`."""
+    return re.sub(r"^CIE (\d+) .*", r"\1", name).replace(" ", "-")
 
 
 @functools.cache
 def named(name: str = "1931") -> Functions:
-    """An observer of the library.
+    """The matching functions of an observer.
 
     Args:
-        name: as `names` lists it, such as "1931" for the CIE 1931 2° observer; case does not matter.
+        name: short, as `names` lists it, or whole, as `illuminant.colorimetry.observers` does; case does not matter.
 
     Raises:
         UsageError: there is none of that name; says which there are.
 
     Example:
-        >>> named("1931").title
-        'CIE 1931 2 Degree Standard Observer'
+        >>> named("1931").title, named("CIE 1964 10°").title
+        ('CIE 1931 2° observer', 'CIE 1964 10° observer')
         >>> named("1932")
         Traceback (most recent call last):
-        illuminant.errors.UsageError: There is no observer '1932' in the library (did you mean "1931"?): known ...
+        illuminant.errors.UsageError: There is no observer '1932' (did you mean "1931"?): known are 1931, 1964, ...
     """
     import numpy as np
 
-    folder = spectra.DATA / "observers"
-    paths = {_short(path.stem): path for path in sorted(folder.glob("*.csv"))}
-    path = paths.get(name.strip().casefold().replace("_", "-"))
-    if path is None:
-        hint = suggestion(name, paths)
+    wanted = name.strip().casefold()
+    known = {key.casefold(): whole for whole in colorimetry.observers() for key in (_short(whole), whole)}
+    if wanted not in known:
+        hint = suggestion(name, names())
+        known_names = ", ".join(names())
         raise UsageError(
-            f"There is no observer {name!r} in the library{f' ({hint})' if hint else ''}: known are "
-            f"{', '.join(paths)}."
+            f"There is no observer {name!r}{f' ({hint})' if hint else ''}: known are {known_names}."
         )
-    columns = [spectra.read(path, column=column) for column in "xyz"]
-    wavelengths = np.array(columns[0].wavelengths_nm)
-    values = np.stack([column.values for column in columns], axis=-1)
-    return Functions(columns[0].name, ("x̄", "ȳ", "z̄"), wavelengths, values)
+    curves = colorimetry.matching_functions(known[wanted])
+    values = np.stack([curve.values for curve in curves], axis=-1)
+    return Functions(f"{known[wanted]} observer", ("x̄", "ȳ", "z̄"), np.array(curves[0].wavelengths_nm), values)
 
 
 def in_space(observer: Functions, space: str) -> Functions:

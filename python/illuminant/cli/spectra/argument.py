@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from illuminant.spectra import Quantity, Spectrum
+    from illuminant.spectra import MaterialFile, Quantity, Spectrum
 
-__all__ = ["Column", "FileQuantity", "is_file", "load", "numbers", "quantity_of", "range_of"]
+__all__ = ["Column", "FileQuantity", "is_file", "load", "material_of", "numbers", "quantity_of", "range_of"]
 
 FileQuantity = Annotated[
     str | None,
@@ -34,7 +34,7 @@ Column = Annotated[
     ),
 ]
 
-_FILE_ENDINGS = {".csv", ".spd", ".mat", ".txt", ".tsv", ".dat"}
+_FILE_ENDINGS = {".csv", ".tsv", ".spd", ".txt", ".dat", ".mat", ".mtl", ".material"}
 _EQUATION = re.compile(r"(blackbody|daylight):(.*)", re.IGNORECASE)
 
 
@@ -90,6 +90,20 @@ def load(word: str, quantity: str | None = None, column: str | None = None) -> S
 
         raise UsageError(f"--quantity {given}: {word} says that it holds {spectrum.quantity}.")
     return spectrum
+
+
+def material_of(word: str) -> MaterialFile | None:
+    """What a material file of the book says beside its curve (n, k, conductor or dielectric); None for all others."""
+    from illuminant import spectra
+    from illuminant.errors import DataError
+
+    if _EQUATION.fullmatch(word) or not is_file(word):
+        return None
+    try:
+        found = spectra.read_material(Path(word).expanduser(), quantity="")
+    except DataError:
+        return None
+    return found if (found.n, found.k, found.conductor) != (None, None, None) else None
 
 
 def _lamp(kind: str, text: str) -> Spectrum:

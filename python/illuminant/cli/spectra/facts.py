@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from illuminant.spectra import Spectrum
 
 __all__ = ["facts"]
+
+OBSERVER = "CIE 1931 2°"
 
 RANGE_NM = (360, 830)
 """The tables of the CIE's observer, and so the sums for XYZ."""
@@ -19,10 +22,10 @@ SODIUM_NM = 589.3
 def facts(spectrum: Spectrum, header: dict[str, str]) -> dict[str, Any]:
     """Facts of a spectrum as `illuminant spectra show --json` prints them.
 
-    `area` is ∫ values dλ over the curve's own range, exact for straight lines between its samples. What follows from
-    the curve is in `derived`, by the CIE 1931 2° observer and 1 nm sums from 360 to 830 nm:
+    `area` is `Spectrum.area`, the sum at every whole nm of the curve's own range. What follows from the curve is in
+    `derived`, by the CIE 1931 2° observer and 1 nm sums from 360 to 830 nm:
 
-        emission       x, y; with a radiance also Y in cd/m²
+        emission       x, y; cct_k, duv and ra (R_a of CIE 13.3) where these are defined; of a radiance also Y in cd/m²
         reflectance    xyz with Y = 1 for a perfect diffuser under D65, lab, srgb (#rrggbb), clipped says whether sRGB
                        cannot show it
         n, k           the value at 589.3 nm, where the curve is known there
@@ -39,8 +42,7 @@ def facts(spectrum: Spectrum, header: dict[str, str]) -> dict[str, Any]:
     """
     import numpy as np
 
-    wavelengths, values = np.array(spectrum.wavelengths_nm), np.array(spectrum.values)
-    steps = np.diff(wavelengths)
+    steps = np.diff(spectrum.wavelengths_nm)
     even = bool(np.allclose(steps, steps[0], rtol=1e-6))
     return {
         "name": spectrum.name,
@@ -48,10 +50,10 @@ def facts(spectrum: Spectrum, header: dict[str, str]) -> dict[str, Any]:
         "quantity": spectrum.quantity,
         "unit": spectrum.unit,
         "range_nm": list(spectrum.range_nm),
-        "points": len(values),
+        "points": len(spectrum.values),
         "step_nm": float(steps[0]) if even else None,
         "outside": spectrum.outside,
-        "area": float(np.trapezoid(values, wavelengths)),
+        "area": _area(spectrum),
         "derived": _derived(spectrum),
         "source": header.get("source", ""),
         "provenance": header.get("provenance", "") or spectrum.provenance,
@@ -59,6 +61,16 @@ def facts(spectrum: Spectrum, header: dict[str, str]) -> dict[str, Any]:
         "wavelengths_nm": list(spectrum.wavelengths_nm),
         "values": list(spectrum.values),
     }
+
+
+def _area(spectrum: Spectrum) -> float | None:
+    """The area; None where the range holds no two whole nm."""
+    from illuminant.errors import UsageError
+
+    try:
+        return spectrum.area()
+    except UsageError:
+        return None
 
 
 def _derived(spectrum: Spectrum) -> dict[str, Any]:
@@ -76,35 +88,40 @@ def _derived(spectrum: Spectrum) -> dict[str, Any]:
 
 
 def _of_lamp(lamp: Spectrum) -> dict[str, Any]:
-    from illuminant.core import core
+    from illuminant import colorimetry
+    from illuminant.errors import DataError
 
-    outside = "zero" if lamp.outside == "error" else lamp.outside
-    x, y, z = (float(v) for v in core().xyz(lamp.wavelengths_nm, lamp.values, outside, RANGE_NM))
-    if not x + y + z > 0:
+    try:
+        x, y = colorimetry.chromaticity(lamp)
+    except DataError:  # no light, or not known where it is needed
         return {}
-    found: dict[str, Any] = {"observer": "CIE 1931 2°", "x": x / (x + y + z), "y": y / (x + y + z)}
+    found: dict[str, Any] = {"observer": OBSERVER, "x": x, "y": y}
     if lamp.unit == "W sr-1 m-2 nm-1":
-        found["luminance_cd_m2"] = y
+        found["luminance_cd_m2"] = float(lamp.xyz(range_nm=RANGE_NM)[1])
+    # Both are defined for lights near the colours of blackbodies only.
+    with contextlib.suppress(DataError):
+        found["cct_k"], found["duv"] = colorimetry.correlated_color_temperature((x, y))
+    with contextlib.suppress(DataError):
+        found["ra"] = colorimetry.rendering_index(lamp).general
     return found
 
 
 def _of_reflectance(reflectance: Spectrum) -> dict[str, Any]:
     import numpy as np
 
-    from illuminant import spectra
     from illuminant.core import core
+    from illuminant.errors import DataError
+    from illuminant.spectra import load
 
-    if reflectance.outside == "error" and not (
-        reflectance.range_nm[0] <= RANGE_NM[0] and RANGE_NM[1] <= reflectance.range_nm[1]
-    ):
+    light = load("D65")
+    try:
+        xyz = reflectance.xyz(light, range_nm=RANGE_NM)
+    except DataError:  # not known where it is needed
         return {}
-    light = spectra.load("D65")
-    grid = np.arange(RANGE_NM[0], RANGE_NM[1] + 1.0)
-    white = core().xyz(grid, light.at(grid), "zero", RANGE_NM)
-    xyz = core().xyz(grid, light.at(grid) * reflectance.at(grid), "zero", RANGE_NM) / white[1]
+    white = light.xyz(range_nm=RANGE_NM)
     code, outside = core().develop(xyz[np.newaxis, np.newaxis], "sRGB", 1.0, 8)
     return {
-        "observer": "CIE 1931 2°",
+        "observer": OBSERVER,
         "light": "D65",
         "xyz": xyz.tolist(),
         "lab": core().xyz_to_lab(xyz, white / white[1]).tolist(),

@@ -47,7 +47,7 @@ def plot(
         typer.Option(
             "--observer",
             metavar="NAME",
-            help="Matching functions of this observer: 1931.",
+            help="Matching functions of 1931, 1964 or book.",
             show_default=False,
         ),
     ] = None,

@@ -43,12 +43,15 @@ def show(
 
     from illuminant import spectra
     from illuminant.cli.report import emit_json
-    from illuminant.cli.spectra.argument import is_file, load
+    from illuminant.cli.spectra.argument import is_file, load, material_of
     from illuminant.cli.spectra.facts import facts
 
     spectrum = load(word, quantity, column)
     header = {} if ":" in word or is_file(word) else spectra.header(word)
     found = facts(spectrum, header)
+    beside = material_of(word)
+    if beside is not None:
+        found |= {"n": beside.n, "k": beside.k, "conductor": beside.conductor}
     if json:
         emit_json(found)
         return
@@ -66,6 +69,9 @@ def _print_facts(found: dict[str, Any], width: int) -> None:
 
     title = found["title"]
     typer.echo(f"{found['name']}: {title}" if title and title != found["name"] else found["name"])
+    material = ", ".join(f"{key} {found[key]:g}" for key in ("n", "k") if found.get(key) is not None)
+    if found.get("conductor") is not None:
+        material += f"{', ' if material else ''}{'conductor' if found['conductor'] else 'dielectric'}"
     first, last = found["range_nm"]
     step = f", {found['step_nm']:g} nm apart" if found["step_nm"] else ""
     plain = found["unit"] in ("", "1")
@@ -75,7 +81,8 @@ def _print_facts(found: dict[str, Any], width: int) -> None:
         ("quantity", (found["quantity"] or "unknown; --quantity says which") + unit),
         ("range", f"{first:g} to {last:g} nm, {found['points']} points{step}"),
         ("outside", outside),
-        *([] if found["quantity"] in ("n", "k") else [("area", f"{found['area']:.6g} nm{by_unit}")]),
+        *([] if found["quantity"] in ("n", "k") else [("area", f"{found['area'] or 0:.6g} nm{by_unit}")]),
+        *([("material", material)] if material else []),
         *_derived_lines(found["derived"]),
         *((key, found[key]) for key in ("source", "provenance", "licence") if found[key]),
     ]
@@ -91,6 +98,9 @@ def _derived_lines(derived: dict[str, Any]) -> list[tuple[str, str]]:
     """The derived numbers as lines of name and text."""
     if "x" in derived:
         lines = [("chromaticity", f"x {derived['x']:.4f}, y {derived['y']:.4f} ({derived['observer']})")]
+        if "cct_k" in derived:
+            index = f"; colour rendering R_a {derived['ra']:.1f}" if "ra" in derived else ""
+            lines.append(("temperature", f"{derived['cct_k']:.0f} K, Duv {derived['duv']:.4f}{index}"))
         if "luminance_cd_m2" in derived:
             lines.append(("luminance", f"{derived['luminance_cd_m2']:.4g} cd/m²"))
         return lines
