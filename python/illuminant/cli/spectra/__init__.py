@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import typer
 
-from illuminant.cli.spectra import listing, plot, show
+from illuminant.cli.spectra import convert, listing, plot, show
 
 __all__ = ["app"]
 
@@ -15,11 +15,12 @@ app = typer.Typer(no_args_is_help=False)
 app.command("list", short_help="List the names of the library.")(listing.list_names)
 app.command("show", short_help="Show what a spectrum is, and its values.")(show.show)
 app.command("plot", short_help="Plot spectra, observers, chromaticities.")(plot.plot)
+app.command("convert", short_help="Write a spectrum to a file of another kind.")(convert.convert)
 
 
 @app.callback(invoke_without_command=True)
 def _start(context: typer.Context) -> None:
-    """List, show and plot measured spectra: those of the library, and those of files.
+    """List, show, plot and convert measured spectra: those of the library, and those of files.
 
     \b
     Example:
