@@ -75,6 +75,7 @@ def test_every_help_has_an_example_and_fits_80_columns(verb: str, inside: Comman
         (["show", "blackbody:-3"], "blackbody:-3: expected a temperature in K"),
         (["show", "blackbody:nan"], "blackbody:nan: expected a temperature in K"),
         (["show", "daylight:300"], "daylight:300: expected a colour temperature of 4000 to 25000 K"),
+        (["show", "D65", "--quantity", "n"], "--quantity goes with a file, and D65 is none."),
         (["show"], "Missing argument 'WHAT'"),
         (["list", "--quantity", "colour"], "--quantity colour: expected emission, reflectance, n or k."),
         (["frob"], "No such command 'frob'"),
@@ -92,6 +93,16 @@ def test_a_mistake_is_one_sentence(
     done = inside("spectra", *arguments, cwd=tmp_path)
     assert (done.returncode, done.stdout) == (2, "")
     assert sentence in done.stderr and done.stderr.startswith("Error: ") and done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("verb", ["list", "show", "plot", "convert"])
+def test_help_loads_no_large_package(verb: str) -> None:
+    program = (
+        f"import sys; from illuminant.cli import run; run(['spectra', {verb!r}, '--help']);"
+        "print(sorted({'numpy', 'matplotlib', 'illuminant._core', 'illuminant.spectra'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
 
 
 # --- list ----------------------------------------------------------------------------------------------------

@@ -15,7 +15,17 @@ import typer
 if TYPE_CHECKING:
     from illuminant.spectra import MaterialFile, Quantity, Spectrum
 
-__all__ = ["Column", "FileQuantity", "is_file", "load", "material_of", "numbers", "quantity_of", "range_of"]
+__all__ = [
+    "Column",
+    "FileQuantity",
+    "check_file_options",
+    "is_file",
+    "load",
+    "material_of",
+    "numbers",
+    "quantity_of",
+    "range_of",
+]
 
 FileQuantity = Annotated[
     str | None,
@@ -55,6 +65,15 @@ def is_file(word: str) -> bool:
     except DataError:
         return Path(word).is_file() or Path(word).suffix.casefold() in _FILE_ENDINGS
     return False
+
+
+def check_file_options(words: list[str], quantity: str | None, column: str | None) -> None:
+    """Refuse --quantity and --column where no word means a file."""
+    from illuminant.errors import UsageError
+
+    for option, value in (("--quantity", quantity), ("--column", column)):
+        if value is not None and not any(is_file(word) for word in words):
+            raise UsageError(f"{option} goes with a file{f', and {words[0]} is none' if words else ''}.")
 
 
 def load(word: str, quantity: str | None = None, column: str | None = None) -> Spectrum:

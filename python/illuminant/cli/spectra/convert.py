@@ -149,11 +149,10 @@ def _read(word: str, quantity: str | None, column: str | None, scaled: bool) -> 
     """The spectrum to convert; what a scaled file holds is checked after the scaling, so percents can be read."""
     from dataclasses import replace
 
-    from illuminant.cli.spectra.argument import is_file, load, quantity_of
+    from illuminant.cli.spectra.argument import check_file_options, load, quantity_of
     from illuminant.errors import UsageError
 
-    if not is_file(word):
-        _refuse({"--quantity": quantity, "--column": column}, f"goes with a file, and {word} is none")
+    check_file_options([word], quantity, column)
     spectrum = load(word, None if scaled else quantity, column)
     given = quantity_of(quantity)
     if given and spectrum.quantity not in ("", given):

@@ -114,7 +114,7 @@ def plot(
       illuminant spectra plot D65 FL11 --chromaticity xy --gamut sRGB
     """
     from illuminant.cli.report import note
-    from illuminant.cli.spectra.argument import load, numbers, range_of
+    from illuminant.cli.spectra.argument import check_file_options, load, numbers, range_of
     from illuminant.errors import UsageError
     from illuminant.plots import style
 
@@ -132,6 +132,7 @@ def plot(
     for option, is_given in given.items():
         if is_given and option not in allowed:
             raise UsageError(f"{option} does not go with {kind}.")
+    check_file_options(words or [], quantity, column)
     shown = range_of(wavelengths)
     path = style.check_format(output or f"{_stem(words or [], matching, chromaticity, observer, space)}.png")
     look: dict[str, Any] = {"plain": plain} | ({"size": _inches(size)} if size else {})
@@ -240,9 +241,13 @@ def _diagram(
     lamp = load(light or "D65")
     if lamp.quantity != "emission":
         raise UsageError(f"--light {light}: expected a lamp, not {lamp.quantity or 'an unknown quantity'}.")
-    if light is not None and not any(s.quantity == "reflectance" for s in spectra):
+    lit = any(s.quantity == "reflectance" for s in spectra)
+    if light is not None and not lit:
         raise UsageError("--light goes with reflectances, and none is named.")
     plane = diagram(kind, observer or "1931")
+    # Where the light itself lies is where a grey does.
+    if lit and lamp.name not in [s.name for s in spectra]:
+        spectra = [lamp, *spectra]
     points: dict[str, Any] = {}
     for spectrum in spectra:
         alike = sum(name.partition(" (")[0] == spectrum.name for name in points)

@@ -43,9 +43,10 @@ def show(
 
     from illuminant import spectra
     from illuminant.cli.report import emit_json
-    from illuminant.cli.spectra.argument import is_file, load, material_of
+    from illuminant.cli.spectra.argument import check_file_options, is_file, load, material_of
     from illuminant.cli.spectra.facts import facts
 
+    check_file_options([word], quantity, column)
     spectrum = load(word, quantity, column)
     header = {} if ":" in word or is_file(word) else spectra.header(word)
     found = facts(spectrum, header)
