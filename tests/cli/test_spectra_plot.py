@@ -110,6 +110,7 @@ def test_two_files_of_one_name_are_two_points(tmp_path: Path, inside: Command) -
             ["book/copper", "--light", "book/copper", "--chromaticity", "xy"],
             "--light book/copper: expected a lamp, not reflectance.",
         ),
+        (["--chromaticity", "xy", "--zoom"], "A diagram can be zoomed to points only, and none is given."),
         (["D65", "FL2", "--column", "x"], "--column goes with a file, and D65 is none."),
         (["--matching", "445,535,630", "--quantity", "n"], "--quantity goes with a file."),
         (["D65", "--size", "10x10"], "--size 10x10: expected width and height from 400 to 10000"),

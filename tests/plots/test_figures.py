@@ -163,6 +163,19 @@ def test_the_planckian_locus_and_the_ground_can_be_left_out() -> None:
     assert plots.chromaticity("xy").axes[0].images
 
 
+def test_a_zoomed_diagram_shows_its_points_and_little_else() -> None:
+    plane = diagram("uv")
+    points = {name: plane.point(spectra.load(name)) for name in ("FL1", "FL2", "FL3", "D50")}
+    axes = plots.chromaticity(plane, points, zoom=True).axes[0]
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    assert all(left < x < right and bottom < y < top for x, y in points.values())
+    assert right - left == pytest.approx(top - bottom) and right - left < 0.15
+    x0, x1, y0, y1 = axes.images[0].get_extent()
+    assert left <= x0 < x1 <= right and bottom <= y0 < y1 <= top, "the ground is computed where it is shown"
+    with pytest.raises(UsageError, match="zoomed to points only"):
+        plots.chromaticity("xy", zoom=True)
+
+
 def test_many_points_are_numbered() -> None:
     plane, light = diagram("uv"), spectra.load("D65")
     points = {name: plane.point(spectra.load(name), light) for name in spectra.names("reflectance")[:24]}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from illuminant.errors import UsageError
 from illuminant.plots import labels
 from illuminant.plots import observer as observers
 from illuminant.plots.diagram import Diagram, diagram
@@ -19,13 +20,16 @@ if TYPE_CHECKING:
 
     Points = NDArray[np.float64]
 
-__all__ = ["TEMPERATURES_K", "WAVELENGTHS_NM", "chromaticity"]
+__all__ = ["CLOSE_TEMPERATURES_K", "TEMPERATURES_K", "WAVELENGTHS_NM", "chromaticity"]
 
 WAVELENGTHS_NM = (420, 440, 460, 470, 480, 490, *range(500, 601, 10), 620, 700)
 """Wavelengths marked on the spectral locus; where marks crowd, some go without a name."""
 
 TEMPERATURES_K = (2000, 3000, 4000, 6500, 10000)
 """Colour temperatures marked on the Planckian locus."""
+
+CLOSE_TEMPERATURES_K = (1800, 2200, 2700, 3000, 3500, 4000, 5000, 5700, 6500, 8000, 10000, 20000)
+"""Those marked in a diagram that is zoomed; lamps are sold by most of them."""
 
 _GAMUTS = ("#000000", "#8E24AA", "#00695C", "#C2185B", "#4E342E", "#1565C0")
 _NUMBERED = 12  # beyond so many points, numbers stand beside them and the names in the legend
@@ -39,6 +43,7 @@ def chromaticity(
     observer: str | observers.Functions = "1931",
     planckian: bool | None = None,
     plain: bool = False,
+    zoom: bool = False,
     size: tuple[float, float] | None = None,
 ) -> Figure:
     """A chromaticity diagram with the spectral locus.
@@ -53,10 +58,11 @@ def chromaticity(
         observer: a name, see `observer.named`, or its functions; a `Diagram` has its own.
         planckian: draw the locus of blackbodies; None: in xy and u'v', and not for primaries.
         plain: white ground.
+        zoom: show only the surroundings of the points.
         size: width and height, inches; None: as wide as it takes for a diagram 7 inches wide.
 
     Raises:
-        UsageError: no such diagram, observer or RGB system.
+        UsageError: no such diagram, observer or RGB system; `zoom` without points.
 
     Example:
         >>> from illuminant import spectra
@@ -74,9 +80,14 @@ def chromaticity(
         given |= {f"{w:g} nm": at for w, at in zip(plane.primaries_nm, corners, strict=True)}
     triangles = [plane.gamut(system) for system in gamuts]
     _, locus = plane.spectral_locus()
-    low, high = _extent(
-        [locus, *(triangle for _, triangle, _ in triangles), *([at] for at in given.values())]
-    )
+    if zoom and not points:
+        raise UsageError("A diagram can be zoomed to points only, and none is given.")
+    if zoom:
+        low, high = _window([given[name] for name in points or ()])
+    else:
+        low, high = _extent(
+            [locus, *(triangle for _, triangle, _ in triangles), *([at] for at in given.values())]
+        )
     numbered = len(given) > _NUMBERED
     if size is None:
         aspect = float((high - low)[1] / (high - low)[0])
@@ -91,18 +102,20 @@ def chromaticity(
         axes.set_ylabel(plane.axes[1])
         axes.set_title(f"{plane.title}, {plane.observer.title}", wrap=True)
         if not plain:
-            _draw_ground(axes, plane, locus)
+            _draw_ground(axes, plane, locus, (low, high))
         _draw_locus(axes, locus)
         handles = _draw_gamuts(axes, triangles)
         if plane.primaries_nm:
             _outline(axes, corners, "#333333", linewidth=1.0)
         temperatures: tuple[int, ...] = ()
         if (not plane.primaries_nm) if planckian is None else planckian:
-            handles += _draw_planckian(axes, plane)
-            temperatures = TEMPERATURES_K
+            temperatures = CLOSE_TEMPERATURES_K if zoom else TEMPERATURES_K
+            handles += _draw_planckian(axes, plane, temperatures)
         marks = _draw_points(axes, given, numbered)
         if numbered:
             figure.legend(handles=[*handles, *marks], loc="outside right upper")
+        elif handles and zoom:
+            figure.legend(handles=handles, loc="outside lower left", ncols=4)
         elif handles:
             # Colours lie below the line x + y = 1, and u'v' leaves the corner of the reds' purples empty.
             below = plane.axes[0] == "u'"
@@ -124,12 +137,22 @@ def _extent(parts: Sequence[ArrayLike]) -> tuple[Points, Points]:
     return low - margin, high + margin
 
 
-def _draw_ground(axes: Axes, plane: Diagram, locus: Points) -> None:
-    """The inside of the spectral locus in its colours, cut along the locus."""
+def _window(points: Sequence[Points]) -> tuple[Points, Points]:
+    """Two corners of a square around points, with room for their names and some of the locus of blackbodies."""
+    import numpy as np
+
+    given = np.array(points)
+    centre = (given.min(axis=0) + given.max(axis=0)) / 2
+    half = 0.65 * float((given.max(axis=0) - given.min(axis=0)).max()) + 0.015
+    return centre - half, centre + half
+
+
+def _draw_ground(axes: Axes, plane: Diagram, locus: Points, window: tuple[Points, Points]) -> None:
+    """The inside of the spectral locus, as far as it is shown, in its colours, cut along the locus."""
     import numpy as np
     from matplotlib.patches import Polygon
 
-    low, high = locus.min(axis=0), locus.max(axis=0)
+    low, high = np.maximum(locus.min(axis=0), window[0]), np.minimum(locus.max(axis=0), window[1])
     steps = (np.arange(512) + 0.5) / 512
     x, y = low[0] + (high[0] - low[0]) * steps, low[1] + (high[1] - low[1]) * steps
     image = axes.imshow(
@@ -176,10 +199,10 @@ def _planckian_points(plane: Diagram) -> Points:
     return plane.planckian_locus(1e6 / np.linspace(1e6 / 1500, 10, 150))
 
 
-def _draw_planckian(axes: Axes, plane: Diagram) -> list[Any]:
-    """The locus of blackbodies with marks at `TEMPERATURES_K`; the line for the legend."""
+def _draw_planckian(axes: Axes, plane: Diagram, temperatures: Sequence[int]) -> list[Any]:
+    """The locus of blackbodies with marks at some temperatures; the line for the legend."""
     line = axes.plot(*_planckian_points(plane).T, color=INK, linewidth=1.0, zorder=3, label="blackbodies")
-    marked = plane.planckian_locus(TEMPERATURES_K)
+    marked = plane.planckian_locus(temperatures)
     axes.plot(*marked.T, linestyle="none", marker=".", markersize=4, color=INK, zorder=3)
     return list(line)
 
@@ -293,7 +316,11 @@ def _name_points(
         obstacles.append((x - width / 2, y - height / 2, x + width / 2, y + height / 2))
     obstacles += labels.around(where, 3.5)
     if temperatures:
+        low, high = np.transpose([axes.get_xlim(), axes.get_ylim()])
         marked = plane.planckian_locus(temperatures)
+        shown = np.all((marked > low) & (marked < high), axis=1)
+        temperatures = [t for t, seen in zip(temperatures, shown, strict=True) if seen]
+        marked = marked[shown]
         where = _on_paper(axes, marked)
         texts = [f"{temperature:,} K" for temperature in temperatures]
         for text, place, at, (x, y) in zip(

@@ -97,6 +97,9 @@ def plot(
         bool | None,
         typer.Option("--planckian/--no-planckian", help="In a diagram: blackbodies.", show_default=False),
     ] = None,
+    zoom: Annotated[
+        bool, typer.Option("--zoom", help="In a diagram: only the surroundings of WHAT.")
+    ] = False,
     plain: Annotated[bool, typer.Option("--plain", help="Without the colours of the spectrum.")] = False,
     size: Annotated[
         str | None, typer.Option("--size", metavar="WxH", help="Pixels of the PNG.", show_default=False)
@@ -127,6 +130,7 @@ def plot(
         "--gamut": bool(gamut),
         "--light": light is not None,
         "--planckian": planckian is not None,
+        "--zoom": zoom,
     }
     kind, allowed = _kind(words or [], matching, chromaticity, observer or space, projection)
     for option, is_given in given.items():
@@ -144,7 +148,9 @@ def plot(
         lights = numbers(chromaticity, "--chromaticity", wanted)
         figure = in_space(lights, observer=observer or "1931", **look)
     elif chromaticity is not None:
-        figure = _diagram(spectra, chromaticity, observer, light, gamut or [], planckian, look)
+        figure = _diagram(
+            spectra, chromaticity, observer, light, gamut or [], planckian, look | {"zoom": zoom}
+        )
     elif spectra:
         from illuminant.plots import curves
 
@@ -180,7 +186,7 @@ def _kind(
             if words:
                 raise UsageError(f"--projection shows three lights by themselves, without {words[0]}.")
             return "a chromaticity diagram in space", {"--observer", "--projection"}
-        return "a chromaticity diagram", {"--observer", "--gamut", "--light", "--planckian"}
+        return "a chromaticity diagram", {"--observer", "--gamut", "--light", "--planckian", "--zoom"}
     if matching is not None or observer is not None:
         if words:
             raise UsageError(f"Matching functions are a plot by themselves, without {words[0]}.")
