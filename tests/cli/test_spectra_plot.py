@@ -10,8 +10,9 @@ Command = Callable[..., "subprocess.CompletedProcess[str]"]
 
 
 def written(folder: Path, inside: Command, *arguments: str) -> tuple[str, str]:
-    """Name of the one file that a plot makes in an empty folder, and what was said."""
-    done = inside("spectra", "plot", *arguments, cwd=folder)
+    """Name of the one file that a small plot makes in an empty folder, and what was said."""
+    small = () if "--size" in arguments else ("--size", "500x450")
+    done = inside("spectra", "plot", *arguments, *small, cwd=folder)
     assert (done.returncode, done.stdout) == (0, ""), done.stderr
     (file,) = folder.iterdir()
     start = {".png": b"\x89PNG", ".svg": b"<?xml"}[file.suffix]
@@ -43,10 +44,11 @@ def test_each_kind_of_plot(
     assert written(tmp_path, inside, *arguments) == (name, f"{name}: {said}\n")
 
 
-def test_the_size_is_that_of_the_png(tmp_path: Path, inside: Command) -> None:
-    written(tmp_path, inside, "E", "--size", "800x600")
+@pytest.mark.parametrize("size", [(800, 600), (777, 501), (321, 900)])
+def test_the_size_is_that_of_the_png(tmp_path: Path, inside: Command, size: tuple[int, int]) -> None:
+    written(tmp_path, inside, "E", "--size", f"{size[0]}x{size[1]}")
     header = (tmp_path / "E.png").read_bytes()[16:24]
-    assert (int.from_bytes(header[:4]), int.from_bytes(header[4:])) == (800, 600)
+    assert (int.from_bytes(header[:4]), int.from_bytes(header[4:])) == size
 
 
 def test_a_file_is_plotted_beside_a_name(tmp_path: Path, inside: Command) -> None:
@@ -65,10 +67,21 @@ def test_two_files_of_one_name_are_two_points(tmp_path: Path, inside: Command) -
     for folder, end in (("a", 1), ("b", 9)):
         (tmp_path / folder / "lamp.csv").write_text(f"# quantity: emission\n400,1\n700,{end}\n")
     done = inside(
-        "spectra", "plot", "a/lamp.csv", "b/lamp.csv", "--chromaticity", "xy", "-o", "c.svg", cwd=tmp_path
+        "spectra",
+        "plot",
+        "a/lamp.csv",
+        "b/lamp.csv",
+        "--chromaticity",
+        "xy",
+        "--plain",
+        "-o",
+        "c.svg",
+        cwd=tmp_path,
     )
     assert done.stderr == "c.svg: a chromaticity diagram of 2 spectra\n"
-    plot = inside("spectra", "plot", "a/lamp.csv", "--chromaticity", "xy", "-o", "d.svg", cwd=tmp_path)
+    plot = inside(
+        "spectra", "plot", "a/lamp.csv", "--chromaticity", "xy", "--plain", "-o", "d.svg", cwd=tmp_path
+    )
     assert plot.returncode == 0
     circles = [(tmp_path / name).read_text().count("ffffff; stroke: #000000") for name in ("c.svg", "d.svg")]
     assert circles[0] > circles[1]
@@ -113,7 +126,9 @@ def test_two_files_of_one_name_are_two_points(tmp_path: Path, inside: Command) -
         (["--chromaticity", "xy", "--zoom"], "A diagram can be zoomed to points only, and none is given."),
         (["D65", "FL2", "--column", "x"], "--column goes with a file, and D65 is none."),
         (["--matching", "445,535,630", "--quantity", "n"], "--quantity goes with a file."),
-        (["D65", "--size", "10x10"], "--size 10x10: expected width and height from 400 to 10000"),
+        (["D65", "--size", "4000x500"], "at most three to one, such as 1600x1000."),
+        (["D65", "--size", "wide"], "--size wide: expected width and height"),
+        (["D65", "--size", "10x10"], "--size 10x10: expected width and height from 200 to 10000"),
     ],
 )  # fmt: skip
 def test_a_wrong_choice_is_one_sentence_and_leaves_no_file(

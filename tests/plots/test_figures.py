@@ -216,7 +216,7 @@ def test_names_cover_neither_each_other_nor_points() -> None:
 @pytest.mark.parametrize("ending", ["svg", "png"])
 def test_the_same_figure_gives_the_same_bytes(tmp_path: Path, ending: str) -> None:
     for name in ("a", "b"):
-        plots.save(plots.chromaticity("xy", gamuts=["sRGB"]), tmp_path / f"{name}.{ending}")
+        plots.save(plots.chromaticity("xy", gamuts=["sRGB"], size=(3, 3)), tmp_path / f"{name}.{ending}")
     content = (tmp_path / f"a.{ending}").read_bytes()
     assert content == (tmp_path / f"b.{ending}").read_bytes()
     assert b"<dc:date>" not in content and b"Software" not in content

@@ -139,7 +139,11 @@ def plot(
     check_file_options(words or [], quantity, column)
     shown = range_of(wavelengths)
     path = style.check_format(output or f"{_stem(words or [], matching, chromaticity, observer, space)}.png")
-    look: dict[str, Any] = {"plain": plain} | ({"size": _inches(size)} if size else {})
+    look: dict[str, Any] = {"plain": plain}
+    pixels = _pixels(size) if size is not None else None
+    if pixels is not None:
+        # A hair more than the quotient, as a part of a pixel is cut off.
+        look["size"] = (WIDTH_INCHES + 1e-6, WIDTH_INCHES * pixels[1] / pixels[0] + 1e-6)
     spectra = [load(word, quantity, column) for word in words or []]
     if chromaticity is not None and projection:
         from illuminant.plots import projection as in_space
@@ -166,6 +170,8 @@ def plot(
         figure = matching_functions(
             observer or "1931", space=space or "xyz", primaries_nm=primaries, range_nm=shown, **look
         )
+    if pixels is not None:
+        figure.set_dpi(pixels[0] / WIDTH_INCHES)
     style.save(figure, path)
     note(f"{path}: {kind}{f' of {len(spectra)} spectra' if len(spectra) > 1 else ''}")
 
@@ -216,17 +222,23 @@ def _stem(
     return re.sub(r"[^\w.+-]+", "-", name).strip("-.") or "plot"
 
 
-def _inches(size: str) -> tuple[float, float]:
-    """Width and height of a figure whose PNG has so many pixels."""
+WIDTH_INCHES = 8.0
+"""Width of a figure whose pixels are given: they decide how fine it is, and not how large its type."""
+
+
+def _pixels(size: str) -> tuple[int, int]:
+    """Width and height as `1600x1000`."""
     import re
 
     from illuminant.errors import UsageError
-    from illuminant.plots.style import DPI
 
     found = re.fullmatch(r"(\d+)x(\d+)", size)
-    if not found or not all(400 <= int(side) <= 10_000 for side in found.groups()):
-        raise UsageError(f"--size {size}: expected width and height from 400 to 10000, such as 1600x1000.")
-    return int(found[1]) / DPI, int(found[2]) / DPI
+    sides = [int(side) for side in found.groups()] if found else [0, 0]
+    if not (min(sides) >= 200 and max(sides) <= min(10_000, 3 * min(sides))):
+        raise UsageError(
+            f"--size {size}: expected width and height from 200 to 10000, at most three to one, such as 1600x1000."
+        )
+    return sides[0], sides[1]
 
 
 def _diagram(
