@@ -95,6 +95,7 @@ def rendering_index(
     wavelengths_nm: Sequence[float] | NDArray[np.float64],
     values: Sequence[float] | NDArray[np.float64],
     outside: str,
+    step_nm: int,
 ) -> tuple[float, list[float], float, float, float]:
     """R_a, R_1 to R_14, CCT (K), Duv, and the distance from the reference in (u, v) of 1960 (CIE 13.3-1995)."""
 

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING
 from illuminant import output
 from illuminant.errors import DataError
 from illuminant.spectrum import Quantity, Spectrum
-from illuminant.spectrum_file import comment, number_text, read_table, rows_text, spectrum_of
+from illuminant.spectrum_file import comment, no_word, number_text, read_table, rows_text, spectrum_of
 
 if TYPE_CHECKING:
     import os
@@ -64,10 +64,8 @@ def read_material(path: str | os.PathLike[str], *, quantity: Quantity | None = N
             word twice, or conductor and dielectric both.
     """
     table = read_table(Path(path))
-    if table.columns:
-        found = " ".join(table.columns)
-        message = f"{found!r} means nothing in a material file; expected n, k, conductor, dielectric or data"
-        raise DataError(message, table.file, table.columns_line)
+    if table.columns_line:
+        raise DataError(no_word(table.first), table.file, table.columns_line)
     words = table.words
     conducts = True if "conductor" in words else False if "dielectric" in words else None
     curve = spectrum_of(table, quantity=quantity)

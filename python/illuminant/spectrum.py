@@ -226,7 +226,9 @@ class Spectrum:
         return self._made(made, self.name, unit, quantity)
 
     def between(self, first_nm: float, last_nm: float) -> Spectrum:
-        """The part from one wavelength to another, with points at both; the rule outside stays.
+        """The part from one wavelength to another; the rule outside stays.
+
+        A spectrum that is zero outside stays within its own range, one that holds its ends has points at both.
 
         Example:
             >>> Spectrum("ramp", [400, 700], [0.0, 0.6]).between(500, 800).wavelengths_nm

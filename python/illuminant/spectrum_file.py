@@ -39,6 +39,7 @@ __all__ = [
     "Table",
     "comment",
     "fold",
+    "no_word",
     "number_text",
     "quantity_of",
     "read",
@@ -64,7 +65,7 @@ class Table:
     Attributes:
         file: its path.
         header: its `# key: value` lines, and `header_lines` where they stand.
-        columns: the names of its columns, if it gives any, and `columns_line` where they stand.
+        columns: the names of its columns, if it gives any; `columns_line` where they stand or 0, `first` the first.
         rows: the numbers, and `lines` where they stand.
         words: the lines of a material file: n and k with their number, conductor or dielectric with 1.
         comments: the text of every line that is a comment.
@@ -75,6 +76,7 @@ class Table:
     header_lines: dict[str, int]
     columns: tuple[str, ...]
     columns_line: int
+    first: str
     rows: tuple[tuple[float, ...], ...]
     lines: tuple[int, ...]
     words: dict[str, float]
@@ -261,7 +263,7 @@ def read_table(path: Path) -> Table:
     header: dict[str, str] = {}
     header_lines: dict[str, int] = {}
     columns: tuple[str, ...] = ()
-    columns_line = 0
+    columns_line, first = 0, ""
     words: dict[str, float] = {}
     word_lines: dict[str, int] = {}
     comments: list[str] = []
@@ -285,12 +287,12 @@ def read_table(path: Path) -> Table:
         numbers = [_number(text) for text in fields]
         # Other names may be numbers, as of patches; but a row whose wavelength is mistyped is no header.
         if not lines and not columns and numbers[0] is None and fields[0][:1] not in "0123456789+-.":
-            columns, columns_line = tuple(fields), number
+            columns, columns_line, first = tuple(fields), number, fields[0]
             continue
         bad = next((i for i, value in enumerate(numbers) if value is None), None)
         if bad is not None:
             if words and bad == 0:
-                raise DataError(_no_word(fields[0]), file, number)
+                raise DataError(no_word(fields[0]), file, number)
             raise DataError(f"{_expected(bad)}, found {_shown(fields[bad])}{_hint(fields)}", file, number)
         width = len(rows[0]) if rows else max(2, len(columns) if "," in content else 2)
         if len(fields) < 2 or (rows and len(fields) != width) or (columns and len(fields) < width):
@@ -299,11 +301,20 @@ def read_table(path: Path) -> Table:
         rows.append(tuple(value for value in numbers if value is not None))
         lines.append(number)
     if words and columns:
-        raise DataError(_no_word(columns[0]), file, columns_line)
+        raise DataError(no_word(first), file, columns_line)
     if columns and rows and len(columns) != len(rows[0]):
         columns = ()  # words with blanks in them, as in "Wavelength (nm)   Power": they name nothing
     return Table(
-        file, header, header_lines, columns, columns_line, tuple(rows), tuple(lines), words, tuple(comments)
+        file,
+        header,
+        header_lines,
+        columns,
+        columns_line,
+        first,
+        tuple(rows),
+        tuple(lines),
+        words,
+        tuple(comments),
     )
 
 
@@ -330,7 +341,8 @@ def _word(content: str, line: int, file: str, words: dict[str, float], lines: di
     return True
 
 
-def _no_word(text: str) -> str:
+def no_word(text: str) -> str:
+    """The sentence about a word that a material file does not have."""
     expected = "'n', 'k', 'conductor', 'dielectric', or a wavelength and a value"
     return f"{_shown(text)} means nothing in a material file; expected {expected}"
 

@@ -26,6 +26,7 @@ PAGES = {
     "water": ("main", "H2O", "Daimon-20.0C"),
     "diamond": ("main", "C", "Peter"),
 }
+OBSERVERS = ("cie_1931_2deg", "cie_1964_10deg", "book", "book_as_printed")
 TYPED = {"book/copper", "book/crown glass", "Cornell/white", "Cornell/green", "Cornell/red", "Cornell/light"}
 
 
@@ -47,8 +48,8 @@ def maker(colour):
         yield module
 
 
-def observer():
-    return np.loadtxt(DATA / "observers" / "cie_1931_2deg.csv", delimiter=",", comments="#", skiprows=10)
+def observer(name="cie_1931_2deg"):
+    return np.loadtxt(DATA / "observers" / f"{name}.csv", delimiter=",", comments="#", skiprows=10)
 
 
 def chromaticity(name):
@@ -94,15 +95,22 @@ def test_every_curve_has_an_oracle(colour):
     for name in set(spectra.names()) - TYPED:
         prefix = name.split("/")[0]
         material = name.removesuffix(".n").removesuffix(".k")
-        assert name in colour.SDS_ILLUMINANTS or prefix in charts or material in PAGES
+        assert name in colour.SDS_ILLUMINANTS or prefix in {*charts, "TCS"} or material in PAGES
 
 
 # --- colour-science -----------------------------------------------------------------------------------------
 
 
-def test_observer(colour):
-    table = observer()
-    functions = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
+@pytest.mark.parametrize(
+    ("file", "key"),
+    [
+        ("cie_1931_2deg", "CIE 1931 2 Degree Standard Observer"),
+        ("cie_1964_10deg", "CIE 1964 10 Degree Standard Observer"),
+    ],
+)
+def test_observer(colour, file, key):
+    table = observer(file)
+    functions = colour.MSDS_CMFS[key]
     assert table[:, 0].tolist() == list(range(360, 831))
     np.testing.assert_array_equal(table[:, 1:], functions.values)
 
@@ -158,6 +166,13 @@ def test_colorchecker(colour, prefix, chart):
     for full_name, other in patches.items():
         curve = spectra.load(f"{prefix}/{full_name}")
         assert curve.wavelengths_nm == tuple(other.wavelengths)
+        assert curve.values == tuple(other.values)
+
+
+def test_color_samples_of_the_cie(colour):
+    for number, other in enumerate(colour.quality.SDS_TCS["CIE 1995"].values(), start=1):
+        curve = spectra.load(f"TCS/{number}")
+        assert curve.wavelengths_nm == tuple(other.wavelengths) == tuple(range(360, 831, 5))
         assert curve.values == tuple(other.values)
 
 

@@ -8,8 +8,10 @@
 //! u' = (10.872 + 0.404 c_r/c_k c − 4 d_r/d_k d)/(16.518 + 1.481 c_r/c_k c − d_r/d_k d), v' = 5.520/(the same),
 //! W\* = 25 Y^⅓ − 17, U\* = 13 W\*(u' − u_r), V\* = 13 W\*(v' − v_r), Rᵢ = 100 − 4.6 ΔEᵢ.
 //!
-//! R_a is the mean of R₁ to R₈. All sums run at 1 nm over 360–830 nm with the 2° observer; where a lamp is tabulated at
-//! 5 nm it is joined by straight lines, as everywhere in this program.
+//! R_a is the mean of R₁ to R₈. All sums run over 360–830 nm with the 2° observer, in steps of which the caller says the
+//! size: at 1 nm a lamp tabulated at 5 nm is joined by straight lines, as everywhere in this program; at 5 nm its points
+//! alone count, and the numbers are those that the CIE publishes for its fluorescent lamps. The two differ by 0.2 in R_a
+//! and by up to 1 in a special index.
 
 use crate::temperature::uv_1960;
 use crate::{ColorTemperature, TemperatureError, correlated_color_temperature};
@@ -35,6 +37,9 @@ pub struct RenderingIndex {
 /// Why a lamp has no colour rendering index.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum RenderingError {
+    /// A step that is no step.
+    #[error("sums for the colour rendering index run in steps of 1 to 10 nm, not of {0} nm")]
+    Step(u32),
     /// No light between 360 and 830 nm.
     #[error("the lamp gives no light that the eye sees")]
     Dark,
@@ -56,19 +61,34 @@ pub fn test_color_samples() -> &'static [Curve] {
     &SAMPLES
 }
 
-/// The colour rendering index of a lamp.
+/// The colour rendering index of a lamp, with sums in steps of `step_nm`.
 ///
 /// ```
 /// use illuminant_spectrum::daylight;
-/// let found = illuminant_color::rendering_index(&daylight(6504.0).unwrap()).unwrap();
+/// let found = illuminant_color::rendering_index(&daylight(6504.0).unwrap(), 1).unwrap();
 /// assert!(found.general > 99.9);
 /// ```
 ///
 /// # Errors
-/// [`RenderingError`]: no light, no correlated colour temperature, or one above 25,000 K.
-pub fn rendering_index(lamp: &Curve) -> Result<RenderingIndex, RenderingError> {
+/// [`RenderingError`]: a step other than 1 to 10 nm, no light, no correlated colour temperature, or one above 25,000 K.
+pub fn rendering_index(lamp: &Curve, step_nm: u32) -> Result<RenderingIndex, RenderingError> {
+    if !(1..=10).contains(&step_nm) {
+        return Err(RenderingError::Step(step_nm));
+    }
     let observer = Observer::cie_1931_2deg();
-    let white = observer.xyz(lamp, RANGE);
+    let sums = |light: &dyn Fn(f64) -> f64| {
+        let mut xyz = [0.0; 3];
+        for w in RANGE.wavelengths().step_by(step_nm as usize) {
+            let value = light(w);
+            for (total, matching) in xyz.iter_mut().zip(&observer.matching) {
+                *total += value * matching.at(w);
+            }
+        }
+        xyz
+    };
+    let under =
+        |sample: &Curve, light: &Curve, white: f64| sums(&|w| sample.at(w) * light.at(w)).map(|v| v / white);
+    let white = sums(&|w| lamp.at(w));
     let sum: f64 = white.iter().sum();
     if !(white[1] > 0.0) {
         return Err(RenderingError::Dark);
@@ -81,11 +101,12 @@ pub fn rendering_index(lamp: &Curve) -> Result<RenderingIndex, RenderingError> {
         daylight(t).ok_or(RenderingError::NoDaylight(t))?
     };
     let uv_lamp = uv_1960(white);
-    let uv_reference = uv_1960(observer.xyz(&reference, RANGE));
+    let white_reference = sums(&|w| reference.at(w));
+    let uv_reference = uv_1960(white_reference);
     let mut special = [0.0; 14];
     for (index, sample) in special.iter_mut().zip(test_color_samples()) {
-        let under_lamp = observer.relative_xyz(sample, lamp, RANGE);
-        let under_reference = observer.relative_xyz(sample, &reference, RANGE);
+        let under_lamp = under(sample, lamp, white[1]);
+        let under_reference = under(sample, &reference, white_reference[1]);
         let shifted = adapt(uv_1960(under_lamp), uv_lamp, uv_reference);
         let a = wuv(under_lamp[1], shifted, uv_reference);
         let b = wuv(under_reference[1], uv_1960(under_reference), uv_reference);
@@ -124,11 +145,11 @@ mod tests {
         for t in [2000.0, 2856.0, 4900.0] {
             let lamp =
                 Curve::tabulated(RANGE, RANGE.wavelengths().map(|w| planck(w, t)).collect(), Outside::Zero);
-            let found = rendering_index(&lamp).unwrap();
+            let found = rendering_index(&lamp, 1).unwrap();
             assert!(found.special.iter().all(|r| (r - 100.0).abs() < 1e-4), "{found:?}");
         }
         // Daylight of a nominal temperature has nearly, not exactly, this correlated colour temperature.
-        let found = rendering_index(&daylight(7500.0).unwrap()).unwrap();
+        let found = rendering_index(&daylight(7500.0).unwrap(), 5).unwrap();
         assert!(found.special.iter().all(|r| (r - 100.0).abs() < 0.05), "{found:?}");
         assert!(found.reference_distance < 1e-4);
     }
@@ -138,16 +159,17 @@ mod tests {
         let lamp = Curve::new(vec![570.0, 590.0, 610.0], vec![0.0, 1.0, 0.0], Outside::Zero).unwrap();
         let white = daylight(5500.0).unwrap();
         let mixed = white.scaled(0.2).sum(&lamp.scaled(3.0)).unwrap();
-        let found = rendering_index(&mixed).unwrap();
+        let found = rendering_index(&mixed, 1).unwrap();
         assert!(found.general < 60.0, "{found:?}");
-        let larger = rendering_index(&mixed.scaled(1e3)).unwrap();
+        let larger = rendering_index(&mixed.scaled(1e3), 1).unwrap();
         assert!((found.general - larger.general).abs() < 1e-6);
     }
 
     #[test]
     fn what_has_none() {
         let line = |a: f64| Curve::new(vec![a, a + 10.0], vec![1.0, 1.0], Outside::Zero).unwrap();
-        assert_eq!(rendering_index(&line(900.0)), Err(RenderingError::Dark));
-        assert!(matches!(rendering_index(&line(520.0)), Err(RenderingError::Temperature(_))));
+        assert_eq!(rendering_index(&line(900.0), 1), Err(RenderingError::Dark));
+        assert!(matches!(rendering_index(&line(520.0), 1), Err(RenderingError::Temperature(_))));
+        assert_eq!(rendering_index(&line(520.0), 0), Err(RenderingError::Step(0)));
     }
 }

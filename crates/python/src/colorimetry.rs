@@ -37,8 +37,9 @@ fn rendering_index(
     wavelengths_nm: Vec<f64>,
     values: Vec<f64>,
     outside: &str,
+    step_nm: u32,
 ) -> PyResult<(f64, [f64; 14], f64, f64, f64)> {
-    let found = illuminant_color::rendering_index(&curve(wavelengths_nm, values, outside)?);
+    let found = illuminant_color::rendering_index(&curve(wavelengths_nm, values, outside)?, step_nm);
     found
         .map(|r| (r.general, r.special, r.temperature.cct_k, r.temperature.duv, r.reference_distance))
         .map_err(mistake)

@@ -108,13 +108,26 @@ impl Curve {
         )
     }
 
-    /// The part from one wavelength to another (nm), with points at both; the rule outside stays.
+    /// The part from one wavelength to another (nm); the rule outside stays. A curve that holds its ends has points at
+    /// both; one that is zero outside stays within its own range, so that no ramp leads down from its end.
     ///
     /// # Errors
-    /// [`CurveError`] when the wavelengths do not increase or are not positive.
+    /// [`CurveError::Disjoint`] when nothing of a curve that is zero outside is left; [`CurveError`] when the
+    /// wavelengths do not increase or are not positive.
     pub fn between(&self, first_nm: f64, last_nm: f64) -> Result<Self, CurveError> {
-        let inside = self.wavelengths_nm().iter().copied().filter(|w| *w > first_nm && *w < last_nm);
-        let points: Vec<f64> = std::iter::once(first_nm).chain(inside).chain([last_nm]).collect();
+        if !(first_nm > 0.0 && first_nm < last_nm && last_nm.is_finite()) {
+            return Err(CurveError::Band { first_nm, last_nm });
+        }
+        let (mut first, mut last) = (first_nm, last_nm);
+        if self.outside() == Outside::Zero {
+            first = first.max(self.range_nm().0);
+            last = last.min(self.range_nm().1);
+            if !(first < last) {
+                return Err(CurveError::Disjoint);
+            }
+        }
+        let inside = self.wavelengths_nm().iter().copied().filter(|w| *w > first && *w < last);
+        let points: Vec<f64> = std::iter::once(first).chain(inside).chain([last]).collect();
         let values = points.iter().map(|w| self.at(*w)).collect();
         Self::new(points, values, self.outside())
     }
@@ -218,7 +231,10 @@ mod tests {
         assert_eq!(a.product(&b), Err(CurveError::Disjoint));
         assert_eq!(a.normalised(560.0, 1.0), Err(CurveError::ZeroAt { wavelength_nm: 560.0 }));
         assert!(a.between(500.0, 400.0).is_err());
+        assert_eq!(a.between(600.0, 700.0), Err(CurveError::Disjoint));
         let part = a.between(450.0, 700.0).unwrap();
-        assert_eq!((part.range_nm(), part.at(450.0), part.at(449.0)), ((450.0, 700.0), 1.0, 0.0));
+        assert_eq!((part.range_nm(), part.at(450.0), part.at(449.0)), ((450.0, 500.0), 1.0, 0.0));
+        let held = Curve::new(vec![400.0, 500.0], vec![1.0, 2.0], Outside::Hold).unwrap();
+        assert_eq!(held.between(450.0, 700.0).unwrap().values(), [1.5, 2.0, 2.0]);
     }
 }

@@ -49,8 +49,8 @@ pub enum CurveError {
         /// The value there.
         value: f64,
     },
-    /// A product of two curves that are zero outside ranges which share nothing.
-    #[error("the two ranges do not overlap, so the product is zero everywhere")]
+    /// Two ranges that share nothing, of curves that are zero outside or of such a curve and a part asked for.
+    #[error("the two ranges do not overlap, so the result would be zero everywhere")]
     Disjoint,
     /// A curve cannot be brought to a value where it is zero.
     #[error("the spectrum is zero at {wavelength_nm} nm; choose a wavelength where it is not")]

@@ -8,11 +8,13 @@
 
 use crate::{Curve, CurveError};
 
+/// Where a shifted curve is cut off, nm.
+const SHORTEST_NM: f64 = 1.0;
+
 impl Curve {
     /// The curve with the band `band_nm` shown at the wavelengths `visible_nm`; each is a pair of increasing nm.
     ///
-    /// Points beyond the band move along by the same rule; those that would fall on 0 nm or below are left out, with
-    /// the part of the curve between them and the first that stays.
+    /// Points beyond the band move along by the same rule; what would fall below 1 nm is cut off there.
     ///
     /// ```
     /// use illuminant_spectrum::{Curve, Outside};
@@ -32,13 +34,17 @@ impl Curve {
             }
         }
         let ratio = (visible_nm[1] - visible_nm[0]) / (band_nm[1] - band_nm[0]);
-        let (wavelengths, values) = self
-            .wavelengths_nm()
-            .iter()
-            .map(|w| visible_nm[0] + (w - band_nm[0]) * ratio)
-            .zip(self.values().iter().copied())
-            .filter(|(w, _)| *w > 0.0)
-            .unzip();
+        let shown = |w: f64| visible_nm[0] + (w - band_nm[0]) * ratio;
+        let mut points: Vec<(f64, f64)> =
+            self.wavelengths_nm().iter().map(|w| shown(*w)).zip(self.values().iter().copied()).collect();
+        let kept = points.partition_point(|(w, _)| *w < SHORTEST_NM);
+        if kept > 0 {
+            points.drain(..kept);
+            if points.first().is_some_and(|(w, _)| *w > SHORTEST_NM) {
+                points.insert(0, (SHORTEST_NM, self.at(band_nm[0] + (SHORTEST_NM - visible_nm[0]) / ratio)));
+            }
+        }
+        let (wavelengths, values) = points.into_iter().unzip();
         Self::new(wavelengths, values, self.outside())
     }
 }
@@ -69,5 +75,9 @@ mod tests {
         let ultraviolet = Curve::new(vec![10.0, 20.0], vec![1.0, 1.0], Outside::Zero).unwrap();
         let gone = ultraviolet.pseudo_color([300.0, 400.0], [380.0, 780.0]);
         assert_eq!(gone, Err(CurveError::TooShort(0)));
+        let sun = Curve::new(vec![300.0, 2500.0], vec![1.0, 0.2], Outside::Zero).unwrap();
+        let shown = sun.pseudo_color([780.0, 1100.0], [380.0, 780.0]).unwrap();
+        assert_eq!(shown.range_nm().0, 1.0);
+        assert!((shown.at(580.0) - sun.at(940.0)).abs() < 1e-12);
     }
 }
