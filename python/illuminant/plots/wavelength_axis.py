@@ -69,6 +69,7 @@ def draw_wavelength_axis(
     """
     import numpy as np
     from matplotlib.ticker import MaxNLocator
+    from matplotlib.transforms import BboxTransformTo, ScaledTranslation, blended_transform_factory
 
     from illuminant.plots.monochromatic import spectrum
 
@@ -81,7 +82,10 @@ def draw_wavelength_axis(
     if observer is None:
         return
     edges = np.linspace(*range_nm, 801)
-    strip = axes.inset_axes((0.0, -0.035, 1.0, 0.03))
+    # As wide as the axes, and in inches below them, so that it stays clear of the ticks at any height.
+    inches = axes.figure.dpi_scale_trans + ScaledTranslation(0, 0, BboxTransformTo(axes.bbox))
+    below = blended_transform_factory(axes.transAxes, inches)
+    strip = axes.inset_axes((0.0, -0.14, 1.0, 0.12), transform=below)
     strip.imshow(
         spectrum(observer, (edges[1:] + edges[:-1]) / 2)[np.newaxis],
         extent=(*range_nm, 0, 1),
@@ -89,5 +93,5 @@ def draw_wavelength_axis(
         interpolation="nearest",
     )
     strip.set_axis_off()
-    axes.tick_params(axis="x", length=0, pad=14)
+    axes.tick_params(axis="x", length=0, pad=13)
     axes.spines["bottom"].set_visible(False)
