@@ -39,6 +39,8 @@ from pathlib import Path
 
 import numpy as np
 
+import printed_spectra
+
 ROOT = Path(__file__).resolve().parent.parent
 DATA = ROOT / "python" / "illuminant" / "data"
 PAGE = ROOT / "docs" / "spectra.md"
@@ -368,22 +370,14 @@ def book() -> Iterator[Table]:
     """The two material files that the book prints (III.7.1): reflectance at or near normal incidence."""
     printed = "R. Hall, Illumination and Color in Computer Generated Imagery (1989), section III.7.1"
     licence = "measured values quoted from the book"
-    copper = {
-        380: 0.070, 420: 0.095, 460: 0.140, 500: 0.205, 540: 0.265, 560: 0.335,
-        580: 0.490, 600: 0.615, 620: 0.670, 660: 0.725, 700: 0.755,
-    }  # fmt: skip
-    crown = {
-        399: 0.043291, 434: 0.042757, 482: 0.042178, 509: 0.041975,
-        533: 0.041784, 589: 0.041445, 644: 0.041178, 656: 0.041134,
-    }  # fmt: skip
     for name, curve, source, notes in (
-        ("copper", copper,
+        ("copper", printed_spectra.BOOK_COPPER,
          f"{printed}; Thermophysical Properties of Matter 7 (1970), p. 162, curve 4",
          {"n": "0.617 at 589 nm (Jenkins and White 1976, table 25A)",
           "k": "2.630 at 589 nm (Jenkins and White 1976, table 25A); n and k give a reflectance of 0.74 there"
           " (polished metal), the curve 0.55 (copper as received)",
           "conditions": "as received, 298 K, 9 degrees incidence, whole hemisphere"}),
-        ("crown glass", crown,
+        ("crown glass", printed_spectra.BOOK_CROWN_GLASS,
          f"{printed}; from the indices of Jenkins and White 1976, table 23B, borosilicate crown 3, 511/634",
          {"n": "1.51124 at 589.2 nm", "conditions": "polished, normal incidence"}),
     ):  # fmt: skip
@@ -403,26 +397,9 @@ def book() -> Iterator[Table]:
         )
 
 
-BOOK_OBSERVER = """
-    14 0 65  22 1 105  42 1 201  76 2 362  143 4 679  232 6 1102  435 12 2074  776 22 3713
-    1344 40 6456  2148 73 10391  2839 116 13856  3285 168 16230  3483 230 17471  3481 298 17826
-    3362 380 17721  3187 480 17441  2908 600 16692  2511 739 15281  1954 910 12876  1421 1126 10419
-    956 1390 8130  580 1693 6162  320 2080 4652  147 2586 3533  49 3230 2720  24 4073 2123
-    93 5030 1582  291 6082 1117  633 7100 782  1096 7932 573  1655 8620 422  2257 9149 298
-    2904 9540 203  3597 9803 134  4334 9950 87  5121 10000 57  5945 9950 39  6784 9786 27
-    7621 9520 21  8425 9154 18  9163 8700 17  9786 8163 14  10263 7570 11  10567 6949 10
-    10622 6310 8  10456 5668 6  10026 5030 3  9384 4412 2  8544 3810 2  7514 3210 1
-    6424 2650 0  5419 2170 0  4479 1750 0  3608 1382 0  2835 1070 0  2187 816 0
-    1649 610 0  1212 446 0  874 320 0  636 232 0  468 170 0  329 119 0
-    227 82 0  158 57 0  114 41 0  81 29 0  58 21 0  41 15 0  29 10 0  20 7 0
-    14 5 0  10 4 0  7 2 0  5 2 0  3 1 0  2 1 0  2 1 0  1 0 0  1 0 0  1 0 0  0 0 0
-"""
-"""x, y, z in ten-thousandths, 380 to 780 nm by 5 nm, with both slips of the print put right."""
-
-
 def book_observers() -> Iterator[Table]:
     """The 5 nm table of the book's code (III.7.3): as it should be, and as it is printed."""
-    digits = [int(word) / 10_000 for word in BOOK_OBSERVER.split()]
+    digits = [int(word) / 10_000 for word in printed_spectra.BOOK_OBSERVER.split()]
     wavelengths = list(range(380, 781, 5))
     right = {axis: digits[i::3] for i, axis in enumerate("xyz")}
     printed = {axis: list(values) for axis, values in right.items()}
@@ -448,29 +425,12 @@ def book_observers() -> Iterator[Table]:
         )
 
 
-CORNELL_WHITE = """
-    343 445 551 624 665 687 708 723 715 710 745 758 739 767 777 765 751 745 748 729 745 757 753 750 746 747
-    735 732 739 734 725 721 733 725 732 743 744 748 728 716 733 726 713 740 754 764 752 736 734 741 740 732
-    745 755 751 744 731 733 744 731 712 708 729 730 727 707 703 729 750 760 751 739 724 730 740 737
-"""
-CORNELL_GREEN = """
-     92  96  98  97  98  95  95  97  95  94  97  98  96 101 103 104 107 109 112 115 125 140 160 187 229 285
-    343 390 435 464 472 476 481 462 447 441 426 406 373 347 337 314 285 277 266 250 230 207 186 171 160 148
-    141 136 130 126 123 121 122 119 114 115 117 117 118 120 122 128 132 139 144 146 150 152 157 159
-"""
-CORNELL_RED = """
-     40  46  48  53  49  50  53  55  57  56  59  57  61  61  60  62  62  62  61  62  60  59  57  58  58  58
-     56  55  56  59  57  55  59  59  58  59  61  61  63  63  67  68  72  80  90  99 124 154 192 255 287 349
-    402 443 487 513 558 584 620 606 609 651 612 610 650 638 627 620 630 628 642 639 657 639 635 642
-"""
-
-
 def cornell() -> Iterator[Table]:
     """The walls and the lamp of the Cornell box, 400 to 700 nm."""
     source = "Cornell University Program of Computer Graphics, Cornell box data"
     provenance = "published table; several independent renderers carry the same values"
     licence = "published measurements"
-    thousandths = {"white": CORNELL_WHITE, "green": CORNELL_GREEN, "red": CORNELL_RED}
+    thousandths = printed_spectra.CORNELL
     yield table(
         "cornell/walls.csv",
         list(range(400, 701, 4)),

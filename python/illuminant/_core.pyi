@@ -99,6 +99,11 @@ def rendering_index(
 ) -> tuple[float, list[float], float, float, float]:
     """R_a, R_1 to R_14, CCT (K), Duv, and the distance from the reference in (u, v) of 1960 (CIE 13.3-1995)."""
 
+def fidelity_index(
+    lamp: _Curve, samples: Sequence[_Curve], step_nm: int
+) -> tuple[float, list[float], float, float]:
+    """R_f, the index of each sample, CCT (K) and Duv (CIE 224:2017)."""
+
 def metamer(
     reflectance: _Curve,
     lamp: _Curve,

@@ -2,7 +2,7 @@
 
 - correlated colour temperature and Duv (CIE 15:2018, 9.5; the nearest point of Planck's law in u, v of 1960),
 - dominant or complementary wavelength and excitation purity (CIE 15:2018, 9.3),
-- colour rendering index (CIE 13.3-1995),
+- colour rendering index (CIE 13.3-1995) and, over samples of your own, colour fidelity index (CIE 224:2017),
 - metamers: other reflectances of the same colour under one lamp (Cohen and Kappauf 1982).
 
 A light is given as a `Spectrum`, as a name of the library (`"FL11"`), or as its chromaticity (x, y). Observers are
@@ -37,11 +37,13 @@ if TYPE_CHECKING:
 __all__ = [
     "ColorTemperature",
     "Dominant",
+    "FidelityIndex",
     "Metamer",
     "RenderingIndex",
     "chromaticity",
     "correlated_color_temperature",
     "dominant_wavelength",
+    "fidelity_index",
     "fundamental",
     "matching_functions",
     "metamer",
@@ -100,6 +102,22 @@ class RenderingIndex(NamedTuple):
     duv: float
     reference: str
     reference_distance: float
+
+
+class FidelityIndex(NamedTuple):
+    """How faithfully a lamp renders colours.
+
+    Attributes:
+        general: the general index R_f.
+        special: the index of each sample.
+        cct_k: correlated colour temperature of the lamp, K.
+        duv: its distance from the blackbodies.
+    """
+
+    general: float
+    special: tuple[float, ...]
+    cct_k: float
+    duv: float
 
 
 class Metamer(NamedTuple):
@@ -275,6 +293,41 @@ def rendering_index(lamp: Spectrum | str, *, step_nm: int = 1) -> RenderingIndex
     general, special, cct_k, duv, distance = found
     reference = "blackbody" if cct_k < 5000.0 else "daylight"
     return RenderingIndex(general, tuple(special), cct_k, duv, reference, distance)
+
+
+def fidelity_index(
+    lamp: Spectrum | str, samples: Sequence[Spectrum | str], *, step_nm: int = 1
+) -> FidelityIndex:
+    """The colour fidelity index of a lamp over given samples (CIE 224:2017), 380-780 nm.
+
+    R_f = 10 ln(exp((100 − 6.73 ΔE)/10) + 1), with ΔE the mean difference in CAM02-UCS, for the 10° observer, between
+    each sample under the lamp and under a blackbody (to 4000 K), daylight (from 5000 K) or a mixture of the same
+    colour temperature.
+
+    Args:
+        lamp: a spectrum of light or its name in the library.
+        samples: reflectances or their names. Those of CIE 224 are not shipped here; colour-science has them.
+            With others the number is no R_f of the CIE, but compares lamps over the surfaces that matter to you.
+        step_nm: the step of all sums, 1 to 5 nm.
+
+    Raises:
+        UsageError: another step.
+        DataError: no samples; no light; no colour temperature; one above 25,000 K.
+
+    Example:
+        >>> patches = [f"TCS/{i}" for i in range(1, 15)]
+        >>> round(fidelity_index("D65", patches).general, 1)
+        100.0
+        >>> fidelity_index("FL2", patches).general < fidelity_index("FL7", patches).general
+        True
+    """
+    if isinstance(step_nm, bool) or not isinstance(step_nm, int) or not 1 <= step_nm <= 5:
+        raise UsageError(f"The step is a whole number of nm from 1 to 5, not {step_nm!r}.")
+    light = load(lamp) if isinstance(lamp, str) else lamp
+    surfaces = [load(sample) if isinstance(sample, str) else sample for sample in samples]
+    given = [_given(surface, RANGE_NM) for surface in surfaces]
+    general, special, cct_k, duv = _asked(core().fidelity_index, _given(light, RANGE_NM), given, step_nm)
+    return FidelityIndex(general, tuple(special), cct_k, duv)
 
 
 def metamer(

@@ -44,6 +44,7 @@ def maker(colour):
     module = importlib.util.module_from_spec(specification)
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(sys.modules, "make_spectra", module)  # dataclasses look their module up by name
+        patch.syspath_prepend(ROOT / "tools")  # its neighbour, the printed tables
         specification.loader.exec_module(module)
         yield module
 

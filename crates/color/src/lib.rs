@@ -6,6 +6,7 @@
 
 mod difference;
 mod dominant;
+mod fidelity;
 mod lab;
 mod metamer;
 mod rendering_index;
@@ -15,6 +16,7 @@ mod upsampling;
 
 pub use difference::delta_e_2000;
 pub use dominant::{Dominant, DominantError, dominant_wavelength};
+pub use fidelity::{FidelityError, FidelityIndex, fidelity_index};
 pub use lab::Lab;
 pub use metamer::{Metamer, MetamerError, fundamental, metamer};
 pub use rendering_index::{RenderingError, RenderingIndex, rendering_index, test_color_samples};

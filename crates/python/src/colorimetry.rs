@@ -46,6 +46,18 @@ fn rendering_index(
 }
 
 #[pyfunction]
+fn fidelity_index(
+    lamp: (Vec<f64>, Vec<f64>, String),
+    samples: Vec<(Vec<f64>, Vec<f64>, String)>,
+    step_nm: u32,
+) -> PyResult<(f64, Vec<f64>, f64, f64)> {
+    let of = |(w, v, outside): (Vec<f64>, Vec<f64>, String)| curve(w, v, &outside);
+    let samples = samples.into_iter().map(of).collect::<PyResult<Vec<_>>>()?;
+    let found = illuminant_color::fidelity_index(&of(lamp)?, &samples, step_nm);
+    found.map(|f| (f.general, f.special, f.temperature.cct_k, f.temperature.duv)).map_err(mistake)
+}
+
+#[pyfunction]
 #[pyo3(signature = (reflectance, lamp, observer, range_nm, seed, distance))]
 fn metamer<'py>(
     py: Python<'py>,
@@ -83,6 +95,7 @@ pub(crate) fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(correlated_color_temperature, m)?)?;
     m.add_function(wrap_pyfunction!(dominant_wavelength, m)?)?;
     m.add_function(wrap_pyfunction!(rendering_index, m)?)?;
+    m.add_function(wrap_pyfunction!(fidelity_index, m)?)?;
     m.add_function(wrap_pyfunction!(metamer, m)?)?;
     m.add_function(wrap_pyfunction!(fundamental, m)?)
 }

@@ -149,7 +149,8 @@ impl Curve {
         let mut points: Vec<f64> = both.iter().flat_map(|c| c.wavelengths_nm()).copied().collect();
         for curve in both.iter().filter(|c| c.outside() == Outside::Zero) {
             let (begin, end) = curve.range_nm();
-            let beside = [begin.next_down(), end.next_up()];
+            // Wavelengths are positive, so the neighbouring numbers have neighbouring bits.
+            let beside = [f64::from_bits(begin.to_bits() - 1), f64::from_bits(end.to_bits() + 1)];
             // Beyond the ends of a sum that is zero outside, the rule makes the step.
             points.extend(
                 beside.into_iter().filter(|w| outside == Outside::Hold || (first..=last).contains(w)),
