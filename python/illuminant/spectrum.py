@@ -222,8 +222,9 @@ class Spectrum:
         """
         quantity: Quantity = "emission" if self.quantity == "emission" else ""
         unit = "relative" if quantity else "1"
-        made = _asked(core().curve_normalised, self._given(), float(wavelength_nm), float(value))
-        return self._made(made, self.name, unit, quantity)
+        given = self._given((wavelength_nm, wavelength_nm))
+        made = _asked(core().curve_normalised, given, float(wavelength_nm), float(value))
+        return self._made(made, self.name, unit, quantity, self.outside)
 
     def between(self, first_nm: float, last_nm: float) -> Spectrum:
         """The part from one wavelength to another; the rule outside stays.
@@ -380,7 +381,7 @@ class Spectrum:
         elif quantities == {"reflectance"}:
             quantity = "reflectance"
         units = [unit for unit in (self.unit, other.unit) if unit not in ("", "1")]
-        unit = " ".join(dict.fromkeys(units) if "relative" in units else units) or "1"
+        unit = "relative" if "relative" in units else " ".join(units) or "1"
         return self._combined(other, "curve_product", f"{self.name} × {other.name}", unit, quantity)
 
     def _combined(

@@ -109,7 +109,8 @@ def read(
     Raises:
         DataError: with file and line: cannot be read, too large, not text, empty, one point, a row that is
             not numbers, out of order, a repeated wavelength, not finite, negative (n and k excepted), a
-            reflectance above 1, wavelengths in micrometres, several columns and no `column`.
+            reflectance above 1, wavelengths in micrometres, several columns and no `column`; in a material
+            file an unknown word, n or k without a number, or a word twice.
 
     Example:
         >>> import pathlib, tempfile
@@ -148,7 +149,7 @@ def spectrum_of(
     mistake = mistake_in(wavelengths, values, said)
     if mistake:
         raise DataError(mistake[1], table.file, table.lines[mistake[0]] if table.lines else 0)
-    origin = "; ".join(table.header[key] for key in ("source", "provenance") if key in table.header)
+    origin = "; ".join(filter(None, map(table.header.get, ("source", "provenance"))))
     return Spectrum(
         name=name or next(filter(None, map(table.header.get, NAME_KEYS)), Path(table.file).stem),
         wavelengths_nm=wavelengths,

@@ -92,6 +92,8 @@ def test_quantity_and_unit_follow():
     assert ((d65 + d65).quantity, (d65 + d65).name) == ("emission", "D65 + D65")
     assert (0.5 * red + 0.5 * green).quantity == "reflectance"
     assert red.normalised(560).quantity == ""
+    power = Spectrum("power", (400, 700), (1, 1), "zero", "W m-2 nm-1", quantity="emission")
+    assert ((power * red).unit, (d65 * power).unit, (d65 * power).quantity) == ("W m-2 nm-1", "relative", "")
     lower = spectra.load("gold.k") - spectra.load("silver.k")
     assert lower.quantity == "k"
     assert min(lower.values) < 0
@@ -133,6 +135,9 @@ def test_unknown_outside_stays_unknown():
         part.xyz()
     assert part.xyz(range_nm=(450, 600))[1] > 0
     assert part.area() == pytest.approx(0.3 * 151)
+    assert part.normalised(500).outside == "error"
+    with pytest.raises(DataError, match="known from 450 to 600 nm only"):
+        part.normalised(700)
 
 
 # --- between and beyond points ------------------------------------------------------------------------------

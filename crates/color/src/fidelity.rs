@@ -11,7 +11,7 @@
 //! says the size.
 
 use crate::{ColorTemperature, TemperatureError, Triple, correlated_color_temperature};
-use illuminant_spectrum::{Curve, Observer, Outside, SpectralRange, daylight, planck};
+use illuminant_spectrum::{Curve, Observer, SpectralRange, daylight, planck};
 use nalgebra::{Matrix3, Vector3};
 use thiserror::Error;
 
@@ -206,6 +206,7 @@ impl View {
 mod tests {
     use super::*;
     use crate::test_color_samples;
+    use illuminant_spectrum::Outside;
 
     #[test]
     fn references_are_perfect() {
