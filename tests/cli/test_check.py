@@ -1,4 +1,4 @@
-"""`illuminant new`, `check`, `spectra` and `info`: all that needs no rendering."""
+"""`illuminant new`, `check` and `info`: all that needs no rendering."""
 
 import json
 import subprocess
@@ -88,16 +88,6 @@ def test_info_of_what_is_no_image(scene: Path, capsys: pytest.CaptureFixture[str
     assert capsys.readouterr().err == f"Error: {scene} cannot be read: only .exr and .png are.\n"
 
 
-def test_the_library_is_listed_and_shown(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["spectra", "list", "gold"]) == 0
-    assert capsys.readouterr().out.split() == ["gold.n", "n", "gold.k", "k"]
-    assert run(["spectra", "show", "D65"]) == 0
-    out = capsys.readouterr().out
-    assert "300 to 780 nm" in out and "     560  100\n" in out
-    assert run(["spectra", "show", "D6"]) == 2
-    assert "did you mean" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
@@ -115,7 +105,7 @@ def test_a_wrong_command_line_is_one_sentence(
     assert captured.err.startswith(f"Error: {sentence}") and captured.err.count("\n") == 1
 
 
-@pytest.mark.parametrize("verb", ["new", "check", "render", "diff", "info", "spectra list", "spectra show"])
+@pytest.mark.parametrize("verb", ["new", "check", "render", "diff", "info"])
 def test_every_help_has_an_example_and_fits_80_columns(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run([*verb.split(), "--help"]) == 0
     out = capsys.readouterr().out

@@ -41,7 +41,7 @@ app.command("check", short_help="Report every mistake of a scene.")(check.check)
 app.command("render", short_help="Render a scene to an image.")(render.render)
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
-app.add_typer(spectra.app, name="spectra", short_help="List and show measured spectra.")
+app.add_typer(spectra.app, name="spectra", short_help="List, show, plot, convert measured spectra.")
 
 
 def _version(wanted: bool) -> None:

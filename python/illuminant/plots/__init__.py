@@ -1,0 +1,54 @@
+"""Plots of spectra, of matching functions and of chromaticity diagrams, drawn by matplotlib.
+
+    curves(spectra)                curves on wavelength, over a strip in the colours of the spectrum
+    matching_functions(observer)   x̄, ȳ, z̄, or their like in another space or for three monochromatic lights
+    chromaticity("xy")             a diagram with the spectral locus, lamps, materials and gamuts
+    projection(primaries_nm)       how the diagram of three lights comes about, in their space
+    save(figure, path)             a PNG or an SVG, the same bytes for the same figure
+
+The modules `observer` and `diagram` compute the numbers and know nothing of matplotlib; the others draw them.
+matplotlib is imported only when a figure is made. A figure belongs to no window, and a user's matplotlibrc does not
+change it.
+
+Example:
+    >>> from illuminant import plots, spectra
+    >>> figure = plots.curves([spectra.load("D65"), spectra.load("FL11")], normalise_nm=560)
+    >>> plots.save(figure, "lamps.svg")                      # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from illuminant.plots.chromaticity_diagram import chromaticity
+    from illuminant.plots.matching import matching_functions
+    from illuminant.plots.projection_space import projection
+    from illuminant.plots.spectral_curves import curves
+    from illuminant.plots.style import save
+
+__all__ = ["chromaticity", "curves", "matching_functions", "projection", "save"]
+
+# Where each name lives; no module bears the name of a function, which importing it would replace.
+_HOME = {
+    "chromaticity": "chromaticity_diagram",
+    "curves": "spectral_curves",
+    "matching_functions": "matching",
+    "projection": "projection_space",
+    "save": "style",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Look up a lazy name of this package and keep it (PEP 562)."""
+    from importlib import import_module
+
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    return globals()[name]
+
+
+def __dir__() -> list[str]:
+    """Names that exist already and those that are looked up on first use."""
+    return sorted({*globals(), *__all__})
