@@ -139,6 +139,30 @@ def upsample_emission(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """Wavelengths and values of an emission of colour `rgb`; RGB (1, 1, 1) is the system's white with Y = 1."""
 
+def sampling_names() -> list[tuple[str, str]]:
+    """Every form of the name of a spectral sampling, with what it means."""
+
+_Curve = tuple[Sequence[float], Sequence[float], str]
+
+def sampling_error(
+    sampling: str,
+    lamps: Sequence[_Curve],
+    fitted_on: Sequence[_Curve],
+    judged_on: Sequence[_Curve],
+    depth: int,
+    most_fitted: int,
+    most_judged: int,
+    seed: int,
+    range_nm: Sequence[int],
+) -> dict[str, Any]:
+    """ΔE00 of a sampling against 1 nm on the products of up to `depth` reflectances under lamps.
+
+    Curves are (wavelengths, values, 'zero' or 'hold'). A fitted sampling sees at most `most_fitted` products of
+    `fitted_on` for each lamp; it is judged on at most `most_judged` of `judged_on`. Gives `wavelengths_nm`, and `by_lamp`
+    for each lamp the number of `products` and the errors `exposed` and `lit` to half the white: mean, p95, max, and the
+    numbers of the reflectances of the largest.
+    """
+
 def develop(
     xyz: NDArray[np.float64], system: str, exposure: float, bits: int
 ) -> tuple[NDArray[np.uint8] | NDArray[np.uint16], float]:

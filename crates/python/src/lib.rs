@@ -7,6 +7,7 @@ mod arrays;
 mod color;
 mod colorimetry;
 mod display;
+mod sampling;
 mod scene;
 mod spectrum;
 mod technique;
@@ -23,6 +24,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     color::register(m)?;
     colorimetry::register(m)?;
     display::register(m)?;
+    sampling::register(m)?;
     scene::register(m)?;
     technique::register(m)?;
     Ok(())

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import typer
 
-from illuminant.cli.spectra import convert, listing, plot, show
+from illuminant.cli.spectra import compare, convert, error, listing, plot, show
 
 __all__ = ["app"]
 
@@ -16,6 +16,8 @@ app.command("list", short_help="List the names of the library.")(listing.list_na
 app.command("show", short_help="Show what a spectrum is, and its values.")(show.show)
 app.command("plot", short_help="Plot spectra, observers, chromaticities.")(plot.plot)
 app.command("convert", short_help="Write a spectrum to a file of another kind.")(convert.convert)
+app.command("error", short_help="Say what a sampling costs in a scene.")(error.error)
+app.command("compare", short_help="Compare spectral samplings.")(compare.compare)
 
 
 @app.callback(invoke_without_command=True)
