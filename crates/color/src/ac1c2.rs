@@ -6,7 +6,7 @@ use crate::Matrix;
 ///
 /// ```
 /// use illuminant_color::XYZ_TO_AC1C2;
-/// let [a, c1, c2] = XYZ_TO_AC1C2.apply([1.0, 1.0, 1.0]);
+/// let [a, c1, c2] = XYZ_TO_AC1C2.apply([1.0f64, 1.0, 1.0]);
 /// assert!((a - 0.9986).abs() < 1e-12 && (c1 + 0.1340).abs() < 1e-12 && (c2 - 0.5165).abs() < 1e-12);
 /// ```
 pub const XYZ_TO_AC1C2: Matrix =

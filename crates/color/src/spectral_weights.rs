@@ -62,7 +62,7 @@ impl SpectralWeights {
     /// let weights = SpectralWeights::new(
     ///     &[400.0, 700.0], matching, None, range, outside, Interpolation::Linear, Scale::Relative,
     /// ).unwrap();
-    /// let mut xyz = [0.0; 3];
+    /// let mut xyz = [0.0f64; 3];
     /// weights.xyz(&[1.0, 1.0], &mut xyz);
     /// assert!((xyz[1] - 1.0).abs() < 1e-12);
     /// ```
