@@ -1,5 +1,6 @@
 """Mistakes get one sentence that says what was expected."""
 
+import subprocess
 import sys
 
 import numpy as np
@@ -85,3 +86,9 @@ def test_munsell_without_its_package_says_what_to_install(monkeypatch):
         color.munsell_to_xyz("5R 4/14")
     assert isinstance(caught.value, Error)
     assert color.parse_munsell("5R 4/14").value == 4, "reading a notation needs no package"
+
+
+def test_munsell_leaves_the_printing_of_numbers_alone():
+    program = "import numpy as np; from illuminant import color; color.munsell_to_xyz('N 5/'); print(np.ones(2) / 2)"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout == "[0.5 0.5]\n"

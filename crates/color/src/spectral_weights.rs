@@ -43,7 +43,13 @@ pub enum WeightsError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectralWeights {
     rows: [Vec<f64>; 3],
+    /// The same weights in the order in which the sums need them: of X, Y and Z for each group of bands.
+    groups: Vec<[[[f64; LANES]; 3]; 2]>,
 }
+
+/// Bands in a vector. A group is two of them, each with its own sums, which keeps a processor's multipliers busy.
+const LANES: usize = 4;
+const GROUP: usize = 2 * LANES;
 
 impl SpectralWeights {
     /// Weights for spectra known at `bands_nm`.
@@ -121,7 +127,12 @@ impl SpectralWeights {
         for weight in rows.iter_mut().flatten() {
             *weight *= factor;
         }
-        Ok(Self { rows })
+        // The last group is filled up with weights of 0.
+        let weight = |c: usize, band: usize| rows[c].get(band).copied().unwrap_or(0.0);
+        let vector = |c: usize, from: usize| std::array::from_fn(|lane| weight(c, from + lane));
+        let group = |g: usize| [0, 1].map(|half| [0, 1, 2].map(|c| vector(c, g * GROUP + half * LANES)));
+        let groups = (0..bands_nm.len().div_ceil(GROUP)).map(group).collect();
+        Ok(Self { rows, groups })
     }
 
     /// How many bands a spectrum has.
@@ -152,58 +163,51 @@ impl SpectralWeights {
         });
     }
 
+    /// One spectrum after the other: to share the reading of the weights among some would mean to read from some
+    /// places at once, and the memory is several times slower at that.
     fn run<T: Real>(&self, spectra: &[T], xyz: &mut [T]) {
         let n = self.bands();
-        // Two spectra at a time share the reading of the weights.
-        let mut two = spectra.chunks_exact(2 * n);
-        let mut out = xyz.chunks_exact_mut(6);
-        for (pair, xyz) in two.by_ref().zip(out.by_ref()) {
-            let [first, second] = self.dot([&pair[..n], &pair[n..]]);
-            for (slot, value) in xyz.iter_mut().zip(first.into_iter().chain(second)) {
-                *slot = T::of(value);
+        for (spectrum, xyz) in spectra.chunks_exact(n).zip(xyz.chunks_exact_mut(3)) {
+            let mut sums = [[[0.0; LANES]; 3]; 2];
+            add(&mut sums, spectrum, &self.groups);
+            let rest = spectrum.chunks_exact(GROUP).remainder();
+            if let (Some(weights), false) = (self.groups.last(), rest.is_empty()) {
+                let mut filled = [T::default(); GROUP];
+                for (slot, value) in filled.iter_mut().zip(rest) {
+                    *slot = *value;
+                }
+                add(&mut sums, &filled, std::slice::from_ref(weights));
             }
-        }
-        let rest = two.remainder();
-        if !rest.is_empty() {
-            let [only] = self.dot([rest]);
-            for (slot, value) in out.into_remainder().iter_mut().zip(only) {
-                *slot = T::of(value);
-            }
+            let [[x, y, z], second] = sums;
+            let total = |first: [f64; LANES], second: [f64; LANES]| {
+                ((first[0] + second[0]) + (first[2] + second[2]))
+                    + ((first[1] + second[1]) + (first[3] + second[3]))
+            };
+            xyz[0] = T::of(total(x, second[0]));
+            xyz[1] = T::of(total(y, second[1]));
+            xyz[2] = T::of(total(z, second[2]));
         }
     }
+}
 
-    /// The three sums of each of P spectra, in eight partial sums that a compiler keeps in vectors.
-    #[inline(always)]
-    fn dot<T: Real, const P: usize>(&self, spectra: [&[T]; P]) -> [[f64; 3]; P] {
-        const LANES: usize = 4;
-        let n = self.bands();
-        let [x, y, z] = [&self.rows[0][..n], &self.rows[1][..n], &self.rows[2][..n]];
-        let spectra = spectra.map(|spectrum| &spectrum[..n]);
-        let mut partial = [[[0.0f64; LANES]; 3]; P];
-        let whole = n / LANES * LANES;
-        for at in (0..whole).step_by(LANES) {
-            let weights =
-                [x, y, z].map(|row| <[f64; LANES]>::try_from(&row[at..at + LANES]).unwrap_or_default());
-            for (sums, spectrum) in partial.iter_mut().zip(&spectra) {
-                let values = <&[T; LANES]>::try_from(&spectrum[at..at + LANES])
-                    .map_or([0.0; LANES], |v| v.map(T::f64));
-                for (sum, weight) in sums.iter_mut().zip(&weights) {
-                    for lane in 0..LANES {
-                        sum[lane] = values[lane].mul_add(weight[lane], sum[lane]);
-                    }
+/// Adds the products of whole groups of bands to their sums: one for each half of a group, each of X, Y and Z, and lane.
+///
+/// Never inlined: beside the code that adds the lanes up, the compiler would choose vectors across them.
+#[inline(never)]
+fn add<T: Real>(sums: &mut [[[f64; LANES]; 3]; 2], bands: &[T], groups: &[[[[f64; LANES]; 3]; 2]]) {
+    let mut partial = *sums;
+    for (bands, weights) in bands.chunks_exact(GROUP).zip(groups) {
+        for (half, (sums, weights)) in partial.iter_mut().zip(weights).enumerate() {
+            let bands = &bands[half * LANES..(half + 1) * LANES];
+            let values = [bands[0].f64(), bands[1].f64(), bands[2].f64(), bands[3].f64()];
+            for (sum, weight) in sums.iter_mut().zip(weights) {
+                for lane in 0..LANES {
+                    sum[lane] = values[lane].mul_add(weight[lane], sum[lane]);
                 }
             }
         }
-        let mut found = partial.map(|sums| sums.map(|[a, b, c, d]| (a + b) + (c + d)));
-        for at in whole..n {
-            for (sums, spectrum) in found.iter_mut().zip(&spectra) {
-                for (sum, row) in sums.iter_mut().zip([x, y, z]) {
-                    *sum += spectrum[at].f64() * row[at];
-                }
-            }
-        }
-        found
     }
+    *sums = partial;
 }
 
 #[cfg(test)]

@@ -78,8 +78,11 @@ def parse_munsell(notation: str) -> Munsell:
 
 def _asked(function: str) -> Callable[[Any], Any]:
     """A function of colour-science."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # it warns of packages that it does without
+    import numpy as np
+
+    # It warns of packages that it does without, and changes how NumPy prints: neither is asked for here.
+    with warnings.catch_warnings(), np.printoptions():
+        warnings.simplefilter("ignore")
         try:
             import colour
         except ImportError as error:
