@@ -110,6 +110,9 @@ def test_layout_and_output_change_nothing(pair):
     shifted = whole.copy()
     there(shifted[:-1], out=shifted[1:])
     np.testing.assert_array_equal(shifted[1:], wanted[:-1])
+    halves = np.concatenate([whole, whole])
+    there(halves[:61], out=halves[61:])
+    np.testing.assert_array_equal(halves, np.concatenate([whole, wanted]))
 
 
 @every

@@ -107,13 +107,12 @@ def converted(chain: Sequence[Any], values: ArrayLike, out: Array | None = None)
     """
     import numpy as np
 
-    given = np.asarray(values) if isinstance(values, np.ndarray) else None
     array = floating(values)
     if array.ndim == 0 or array.shape[-1] != 3:
         raise UsageError(f"Colours need a last axis of length 3, and the shape is {array.shape}.")
     result = output(array.shape, array.dtype, out)
     direct = result if result.flags.c_contiguous and result.flags.aligned else np.empty_like(array)
-    if direct is result and given is not None and np.may_share_memory(array, result):
+    if direct is result and np.may_share_memory(array, result):
         same = array.ctypes.data == result.ctypes.data and array.strides == result.strides
         # The core reads and writes block by block: an input that is shifted against the output would be overwritten.
         array = result if same else array.copy()
