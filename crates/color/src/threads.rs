@@ -34,9 +34,7 @@ pub(crate) fn each_piece<T: Sync, U: Send>(
     output_piece: usize,
     work: impl Fn(&[T], &mut [U]) + Sync,
 ) {
-    if input.len() > input_piece
-        && let Some(pool) = pool()
-    {
+    if let Some(pool) = (input.len() > input_piece).then(pool).flatten() {
         let pieces = input.par_chunks(input_piece).zip(output.par_chunks_mut(output_piece));
         pool.install(|| pieces.for_each(|(from, to)| work(from, to)));
         return;
@@ -48,9 +46,7 @@ pub(crate) fn each_piece<T: Sync, U: Send>(
 
 /// Calls `work` with each piece of an array that is changed in place.
 pub(crate) fn each_piece_in_place<T: Send>(values: &mut [T], piece: usize, work: impl Fn(&mut [T]) + Sync) {
-    if values.len() > piece
-        && let Some(pool) = pool()
-    {
+    if let Some(pool) = (values.len() > piece).then(pool).flatten() {
         let pieces = values.par_chunks_mut(piece);
         pool.install(|| pieces.for_each(&work));
         return;
