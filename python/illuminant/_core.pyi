@@ -123,11 +123,111 @@ def rgb_systems() -> list[str]:
 def rgb_system(name: str) -> _RgbSystem:
     """Primaries, white, transfer and matrices of an RGB system."""
 
+def rgb_system_of(
+    name: str, primaries: Sequence[Sequence[float]], white: Sequence[float], transfer: str
+) -> _RgbSystem:
+    """An RGB system from x, y of its primaries and white; transfer: 'sRGB', 'Rec.709', 'linear', 'gamma 2.2'."""
+
+def published_matrices() -> list[str]:
+    """The names of the matrices that standards print."""
+
+def published_matrix(name: str) -> list[list[float]]:
+    """A matrix as its standard prints it, as rows."""
+
+def matrix_product(second: Sequence[Sequence[float]], first: Sequence[Sequence[float]]) -> list[list[float]]:
+    """The matrix that does `first`, and then `second`."""
+
+def matrix_inverse(rows: Sequence[Sequence[float]]) -> list[list[float]]:
+    """The inverse of a 3×3 matrix; a singular one is a ValueError that says in which column."""
+
+def adaptation_matrix(
+    method: str, white_from: Sequence[float], white_to: Sequence[float]
+) -> list[list[float]]:
+    """XYZ under one white to XYZ under another; method: 'von Kries', 'Bradford', 'CAT16'."""
+
+class Conversion:
+    """A conversion of three values to three others: one step of `convert`."""
+
+    @staticmethod
+    def matrix(rows: Sequence[Sequence[float]]) -> Conversion:
+        """The product with a 3×3 matrix."""
+    @staticmethod
+    def encode(transfer: str) -> Conversion:
+        """Linear values to code values."""
+    @staticmethod
+    def decode(transfer: str) -> Conversion:
+        """Code values to linear values."""
+    @staticmethod
+    def xyz_to_lab(white: Sequence[float], form: str) -> Conversion:
+        """XYZ to L*a*b* beside a white; form: 'CIE' or 'book'."""
+    @staticmethod
+    def lab_to_xyz(white: Sequence[float], form: str) -> Conversion:
+        """L*a*b* to XYZ."""
+    @staticmethod
+    def xyz_to_luv(white: Sequence[float], form: str) -> Conversion:
+        """XYZ to L*u*v* beside a white; form: 'CIE' or 'book'."""
+    @staticmethod
+    def luv_to_xyz(white: Sequence[float], form: str) -> Conversion:
+        """L*u*v* to XYZ."""
+    @staticmethod
+    def rgb_to_hsl(solid: str) -> Conversion:
+        """RGB to HSL; solid: 'double hexcone', 'double cone', 'cylinder'."""
+    @staticmethod
+    def hsl_to_rgb(solid: str) -> Conversion:
+        """HSL to RGB."""
+    @staticmethod
+    def named(name: str) -> Conversion:
+        """One without parameters: xyz_to_xyy, xyy_to_xyz, xyz_to_uvy, uvy_to_xyz, project, rgb_to_hsv, hsv_to_rgb,
+        rgb_to_yiq, yiq_to_rgb, xyz_to_ac1c2, ac1c2_to_xyz."""
+
+def convert(
+    chain: Sequence[Conversion],
+    values: NDArray[np.float64] | NDArray[np.float32],
+    out: NDArray[np.float64] | NDArray[np.float32],
+) -> None:
+    """A chain of conversions over (..., 3) into `out`, which is `values` itself or does not overlap it; both lie in
+    one piece and have one type."""
+
+def difference(
+    formula: str,
+    first: NDArray[np.float64] | NDArray[np.float32],
+    second: NDArray[np.float64] | NDArray[np.float32],
+    out: NDArray[np.float64] | NDArray[np.float32],
+) -> None:
+    """Colour differences of (..., 3) into `out` (...); formula: '1976', '1994 graphic arts', '1994 textiles', '2000'.
+
+    Either input may be a single colour, for all of the other."""
+
 def xyz_to_lab(xyz: NDArray[np.float64], white: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]:
     """CIE 1976 L*a*b* of XYZ beside a white in the same unit; any shape (..., 3)."""
 
 def delta_e_2000(lab_a: NDArray[np.float64], lab_b: NDArray[np.float64]) -> NDArray[np.float64]:
     """CIEDE2000 between two arrays of L*a*b* of one shape (..., 3)."""
+
+class SpectralWeights:
+    """Weights from the bands of a spectrum to XYZ."""
+
+    def __init__(
+        self,
+        bands_nm: Sequence[float],
+        observer: tuple[Sequence[float] | NDArray[np.float64], NDArray[np.float64]],
+        illuminant: tuple[Sequence[float], Sequence[float], str] | None,
+        range_nm: Sequence[float],
+        outside: str,
+        interpolation: str,
+        scale: str,
+    ) -> None:
+        """Weights for n bands. The observer is wavelengths (m,) and a table (m, 3); the illuminant wavelengths, values
+        and 'zero' or 'hold'; interpolation 'linear' or 'none'; scale 'relative' or 'absolute'."""
+    @property
+    def rows(self) -> list[list[float]]:
+        """The weights of X, Y and Z, n each."""
+    def xyz(
+        self,
+        spectra: NDArray[np.float64] | NDArray[np.float32],
+        out: NDArray[np.float64] | NDArray[np.float32],
+    ) -> None:
+        """XYZ of spectra (..., n) into `out` (..., 3), which has the same type."""
 
 def upsample_albedo(
     rgb: Sequence[float], system: str, range_nm: Sequence[int] = ...

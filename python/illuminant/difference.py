@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from illuminant import output, rgb_system
+from illuminant import color, output, rgb_system
 from illuminant.core import core
 from illuminant.errors import MachineError, UsageError
 from illuminant.image import UNIT, Image, check_output
@@ -107,9 +107,8 @@ def diff(
         image.xyz * (exposure if image.unit == UNIT or not absolute else 1.0) for image in (first, second)
     ]
 
-    white = np.asarray(rgb_system.named("sRGB")["to_xyz"], np.float64).sum(axis=1)
-    labs = [core().xyz_to_lab(np.ascontiguousarray(np.maximum(xyz, 0.0)), white.tolist()) for xyz in shown]
-    delta_e = np.asarray(core().delta_e_2000(*labs))
+    labs = [color.xyz_to_lab(np.maximum(xyz, 0.0), "D65") for xyz in shown]
+    delta_e = np.asarray(color.delta_e_2000(*labs), np.float64)
     row, column = np.unravel_index(int(delta_e.argmax()), delta_e.shape)
     flip_map = _flip(*shown)
     return Difference(

@@ -1,7 +1,6 @@
-"""RGB systems by name: three primaries, a white, and a transfer function.
+"""RGB systems by name, as the readers and writers of images need them: plain data.
 
-The systems themselves are in the core (`_core.rgb_systems()`): sRGB, Rec.709, Rec.2020, Display P3, Adobe
-RGB, ACES AP0, ACES AP1 and XYZ. Here they become plain data for Python, and code values become linear again.
+The systems themselves are in the core (`_core.rgb_systems()`); `illuminant.color` lists them, and computes with them.
 
 Example:
     >>> named("srgb")["name"]
@@ -64,14 +63,8 @@ def gamma(transfer: str) -> float | None:
 def linear(code: Array, transfer: str) -> Array:
     """Linear values of code values in [0, 1]: the inverse of the transfer function of that name.
 
-    Sources: IEC 61966-2-1 (sRGB); ITU-R BT.709 and BT.2020, with their constants at full precision.
+    The formulas are in `illuminant.color.decode`, which this calls for any array (..., 3).
     """
-    import numpy as np
+    from illuminant.color import decode
 
-    exponent = gamma(transfer)
-    if exponent is not None:
-        return np.asarray(code**exponent)
-    if transfer == "sRGB":
-        return np.where(code <= 0.040449936, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)
-    alpha, beta = 1.09929682680944, 0.018053968510807
-    return np.where(code < 4.5 * beta, code / 4.5, ((code + alpha - 1.0) / alpha) ** (1 / 0.45))
+    return decode(code, transfer)

@@ -1,12 +1,9 @@
 //! Gauss quadrature along the axes AC₁C₂, and `meyer`, the four samples that come of it (Meyer 1988; book 3.5.2, III.8).
 
 use crate::{Basis, Role, ToXyz};
+use illuminant_color::XYZ_TO_AC1C2;
 use illuminant_spectrum::{Curve, LUMINOUS_EFFICACY, Observer, SpectralRange};
 use nalgebra::{DMatrix, DVector, Matrix3};
-
-/// XYZ to AC₁C₂ (book eq 3.6).
-pub const XYZ_TO_AC1C2: [[f64; 3]; 3] =
-    [[-0.0177, 1.0090, 0.0073], [-1.5370, 1.0821, 0.3209], [0.1946, -0.2045, 0.5264]];
 
 /// Points nearer than this, nm, are taken together when the axes share points.
 const SHARED_NM: f64 = 10.0;

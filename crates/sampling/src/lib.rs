@@ -24,7 +24,7 @@ mod uniform;
 pub use basis::{Basis, Role, ToXyz};
 pub use error::{Comparison, SpectralError, compare};
 pub use fitted::Fitted;
-pub use gauss::{Gauss, XYZ_TO_AC1C2};
+pub use gauss::Gauss;
 pub use hall::Hall;
 pub use lanes::{LANE_COUNTS, Lanes, lanes_for};
 pub use one_nanometre::OneNanometre;
