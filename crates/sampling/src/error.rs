@@ -126,8 +126,9 @@ mod tests {
             Outside::Zero,
         )
         .unwrap();
-        let products =
-            |lamps: &[Curve]| Products::of_reflectances(range, lamps.to_vec(), &[paint.clone()], 2, 100, 0);
+        let products = |lamps: &[Curve]| {
+            Products::of_reflectances(range, lamps.to_vec(), std::slice::from_ref(&paint), 2, 100, 0)
+        };
         let error =
             |basis: &dyn Basis, lamps: &[Curve]| SpectralError::over(&compare(basis, &products(lamps)));
         assert!(error(&OneNanometre::new(range), std::slice::from_ref(&day)).max < 1e-9);

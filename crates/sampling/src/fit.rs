@@ -6,9 +6,9 @@
 //! kept from falling below zero. Then products that came out badly are given more weight and the wavelengths are moved
 //! again, which brings the largest errors down.
 
-use crate::Products;
 use crate::normal_equations::{Normal, Side, quadratic};
 use crate::products::splitmix;
+use crate::{Products, ToXyz};
 use rayon::prelude::*;
 
 /// Spacing of the coarse grid, nm.
@@ -31,7 +31,7 @@ pub(crate) struct Fit {
     /// Numbers of the wavelengths in the range of the products, increasing.
     pub wavelengths: Vec<usize>,
     /// For each lamp, the XYZ that one unit of filter brings at each wavelength; none for a lamp without light.
-    pub weights: Vec<Option<[Vec<f64>; 3]>>,
+    pub weights: Vec<Option<ToXyz>>,
 }
 
 /// The best `n` wavelengths found, and their weights; `None` where there is nothing to fit.
@@ -47,7 +47,7 @@ pub(crate) fn fit(products: &Products, n: usize) -> Option<Fit> {
     let total: f64 = base[..known].iter().sum();
     let mut importance = base.clone();
     let mut set = Vec::new();
-    let mut best: Option<(f64, Vec<usize>, Vec<[Vec<f64>; 3]>)> = None;
+    let mut best: Option<(f64, Vec<usize>, Vec<ToXyz>)> = None;
     for round in 0..ROUNDS {
         let starts = if round == 0 { starts(&sides, &importance, points, n) } else { vec![set] };
         let refined = starts.into_iter().map(|start| refine(&sides, &importance, points, start));
@@ -77,7 +77,7 @@ pub(crate) fn fit(products: &Products, n: usize) -> Option<Fit> {
 }
 
 /// The error of every product in the metric of the fit.
-fn errors(products: &Products, sides: &[Side], set: &[usize], weights: &[[Vec<f64>; 3]]) -> Vec<f64> {
+fn errors(products: &Products, sides: &[Side], set: &[usize], weights: &[ToXyz]) -> Vec<f64> {
     let mut missed = vec![[0.0; 3]; products.items.len()];
     let mut metrics = vec![[0.0; 6]; products.items.len()];
     for (side, weights) in sides.iter().zip(weights) {
@@ -242,7 +242,7 @@ fn refine(
     importance: &[f64],
     points: usize,
     mut set: Vec<usize>,
-) -> (Vec<usize>, Vec<[Vec<f64>; 3]>, f64) {
+) -> (Vec<usize>, Vec<ToXyz>, f64) {
     let mut sweep = 0;
     loop {
         // Beside each wavelength its neighbours, near ones closely.

@@ -88,7 +88,8 @@ impl Gauss {
 
 /// Rows of weights on AC₁C₂ as rows of weights on XYZ.
 fn to_xyz(rows: &[Vec<f64>; 3]) -> ToXyz {
-    let inverse = Matrix3::from_fn(|i, j| XYZ_TO_AC1C2[i][j]).try_inverse().unwrap_or_else(Matrix3::identity);
+    let inverse =
+        Matrix3::from_fn(|i, j| XYZ_TO_AC1C2.0[i][j]).try_inverse().unwrap_or_else(Matrix3::identity);
     std::array::from_fn(|i| {
         (0..rows[0].len()).map(|s| (0..3).map(|j| inverse[(i, j)] * rows[j][s]).sum()).collect()
     })
@@ -97,7 +98,7 @@ fn to_xyz(rows: &[Vec<f64>; 3]) -> ToXyz {
 /// The weight functions of the three axes at each nm (figure 3.14).
 fn axis_functions(range: SpectralRange) -> [Vec<f64>; 3] {
     let observer = Observer::cie_1931_2deg();
-    XYZ_TO_AC1C2.map(|row| {
+    XYZ_TO_AC1C2.0.map(|row| {
         let at = |w| row.iter().zip(&observer.matching).map(|(c, m)| c * m.at(w)).sum();
         range.wavelengths().map(at).collect()
     })

@@ -1,7 +1,7 @@
 //! The normal equations of a fit: how well weights on a few wavelengths reproduce the colours of products.
 
-use crate::Products;
 use crate::nonnegative::least_squares;
+use crate::{Products, ToXyz};
 use illuminant_color::{Triple, delta_e_2000_metric};
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix3, Vector3};
 use rayon::prelude::*;
@@ -75,7 +75,7 @@ impl Side {
             sides[side].lamps.push(lamp);
             side_of[lamp] = Some(side);
         }
-        let weights: Vec<[Vec<f64>; 3]> =
+        let weights: Vec<ToXyz> =
             (0..products.lamps.len()).map(|lamp| products.weights_of_lamp(lamp)).collect();
         for (item, product) in products.items.iter().enumerate() {
             let found: Vec<Triple> = product
@@ -119,7 +119,7 @@ impl Side {
     }
 
     /// What the weights miss in each row: sampled minus exact XYZ.
-    pub fn residuals(&self, wavelengths: &[usize], weights: &[Vec<f64>; 3]) -> Vec<Triple> {
+    pub fn residuals(&self, wavelengths: &[usize], weights: &ToXyz) -> Vec<Triple> {
         let mut found: Vec<Triple> = self.targets.iter().map(|t| t.map(|v| -v)).collect();
         for (i, &w) in wavelengths.iter().enumerate() {
             for (xyz, f) in found.iter_mut().zip(&self.features[w]) {
@@ -214,7 +214,7 @@ impl Normal {
     }
 
     /// The best non-negative weights on a set, as rows X, Y, Z, and how much of the error they take away.
-    pub fn nonnegative(&self, set: &[usize]) -> ([Vec<f64>; 3], f64) {
+    pub fn nonnegative(&self, set: &[usize]) -> (ToXyz, f64) {
         let (a, b) = self.system(set);
         let (x, gain) = least_squares(&a, &b);
         ([0, 1, 2].map(|row| (0..set.len()).map(|i| x[3 * i + row]).collect()), gain)
