@@ -258,9 +258,9 @@ def sampling_error(
     """ΔE00 of a sampling against 1 nm on the products of up to `depth` reflectances under lamps.
 
     Curves are (wavelengths, values, 'zero' or 'hold'). A fitted sampling sees at most `most_fitted` products of
-    `fitted_on` for each lamp; it is judged on at most `most_judged` of `judged_on`. Gives `wavelengths_nm`, and `by_lamp`
-    for each lamp the number of `products` and the errors `exposed` and `lit` to half the white: mean, p95, max, and the
-    numbers of the reflectances of the largest.
+    `fitted_on` for each lamp; it is judged on at most `most_judged` of `judged_on`. Gives `wavelengths_nm`, and
+    `by_lamp` for each lamp the number of `products` and the errors `exposed` and `lit` to half the white: mean,
+    p95, max, and the numbers of the reflectances of the largest.
     """
 
 def develop(

@@ -1,13 +1,13 @@
 """Spectral samplings: how wavelengths are carried, and what that costs in colour.
 
-A renderer carries a few numbers for a spectrum. Which, and how they become XYZ, is its spectral sampling: `fitted:N`
-(wavelengths and weights chosen for the lamps and materials at hand), `uniform:N`, `hall:N` (boxes; Hall 1983), `meyer` and
-`gauss:A,B,C` (Gauss quadrature along AC1C2; Meyer 1988), `rgb` and `xyz` (colours multiplied as colours, book 3.5.1), and
-`1nm`, the reference. `names()` lists them all.
+A renderer carries a few numbers for a spectrum. Which, and how they become XYZ, is its spectral sampling:
+`fitted:N` (wavelengths and weights chosen for the lamps and materials at hand), `uniform:N`, `hall:N` (boxes;
+Hall 1983), `meyer` and `gauss:A,B,C` (Gauss quadrature along AC1C2; Meyer 1988), `rgb` and `xyz` (colours
+multiplied as colours, book 3.5.1), and `1nm`, the reference. `names()` lists them all.
 
-`compare` is the study of the book's 3.5.2 with numbers: products of one to four reflectances, as light meets them when it
-goes from surface to surface, by a sampling and at 1 nm, in CIEDE2000. `illuminant spectra compare` prints it; what a
-sampling costs in a scene of yours, `illuminant spectra error SCENE` says.
+`compare` is the study of the book's 3.5.2 with numbers: products of one to four reflectances, as light meets them
+when it goes from surface to surface, by a sampling and at 1 nm, in CIEDE2000. `illuminant spectra compare` prints
+it; what a sampling costs in a scene of yours, `illuminant spectra error SCENE` says.
 
 Example:
     >>> [study] = compare(["fitted:8"], ["D65"], products=500)
@@ -188,7 +188,9 @@ def _reflectances(values: Sequence[str | Spectrum] | str) -> list[Spectrum]:
         values = [name for name in spectra.names("reflectance") if name.casefold().startswith(start)]
     found = [_spectrum(value) for value in values]
     if not found:
-        raise UsageError("There is no reflectance to multiply; expected a group such as ColorChecker, or names.")
+        raise UsageError(
+            "There is no reflectance to multiply; expected a group such as ColorChecker, or names."
+        )
     return found
 
 

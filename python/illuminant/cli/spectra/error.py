@@ -43,7 +43,9 @@ def error(
         for text in job.warnings():
             warning(text)
         wavelengths = [float(w) for w in job.core_render.wavelengths()]
-        rows.append({"sampling": job.settings.sampling, **job.spectral_error(), "wavelengths_nm": wavelengths})
+        rows.append(
+            {"sampling": job.settings.sampling, **job.spectral_error(), "wavelengths_nm": wavelengths}
+        )
     if json:
         emit_json(rows)
         return
