@@ -242,7 +242,7 @@ def upsample_emission(
 def sampling_names() -> list[tuple[str, str]]:
     """Every form of the name of a spectral sampling, with what it means."""
 
-_Curve = tuple[Sequence[float], Sequence[float], str]
+_Curve: TypeAlias = tuple[Sequence[float], Sequence[float], str]
 
 def sampling_error(
     sampling: str,

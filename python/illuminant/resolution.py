@@ -356,7 +356,7 @@ def in_place(description: Mapping[str, Any]) -> dict[str, Any]:
         Spectrum(curve["name"], curve["wavelengths"], curve["values"], curve["outside"])
         for curve in description["curves"]
     ]
-    keys = ("reflectance", "n", "k", "absorption", "spectrum")
+    keys = ("reflectance", "transmittance", "n", "k", "absorption", "spectrum")
 
     def walk(value: Any) -> Any:
         if isinstance(value, dict):

@@ -16,6 +16,7 @@ const SHARED_NM: f64 = 10.0;
 /// one of the axis with fewer points serves both, which leaves Meyer's four.
 #[derive(Clone, Debug)]
 pub struct Gauss {
+    range: SpectralRange,
     wavelengths_nm: Vec<f64>,
     map: ToXyz,
 }
@@ -59,7 +60,7 @@ impl Gauss {
                 rows[axis][at] += LUMINOUS_EFFICACY * weight;
             }
         }
-        Ok(Self { wavelengths_nm: fixed, map: to_xyz(&rows) })
+        Ok(Self { range, wavelengths_nm: fixed, map: to_xyz(&rows) })
     }
 
     /// The four samples, with the weights of the book's III.8 (in units of the sum of ȳ).
@@ -67,22 +68,22 @@ impl Gauss {
     /// As printed there, the row of C₁ has its first weight at 557.7 nm. The Gauss rule of C₁ has it at 490.9 nm, and so
     /// has this; [`Gauss::meyer_as_printed`] is the book's.
     #[must_use]
-    pub fn meyer() -> Self {
-        Self::of_book([0.0, 0.31824, 0.0, -0.46008])
+    pub fn meyer(range: SpectralRange) -> Self {
+        Self::of_book([0.0, 0.31824, 0.0, -0.46008], range)
     }
 
     /// The four samples with the weights as the book prints them.
     #[must_use]
-    pub fn meyer_as_printed() -> Self {
-        Self::of_book([0.0, 0.0, 0.31824, -0.46008])
+    pub fn meyer_as_printed(range: SpectralRange) -> Self {
+        Self::of_book([0.0, 0.0, 0.31824, -0.46008], range)
     }
 
-    fn of_book(c1: [f64; 4]) -> Self {
+    fn of_book(c1: [f64; 4], range: SpectralRange) -> Self {
         let area = Observer::cie_1931_2deg().matching[1].area(SpectralRange::default());
         let scale = LUMINOUS_EFFICACY * area / 1.057_863;
         let rows = [[0.0, 0.18892, 0.67493, 0.19253], c1, [0.54640, 0.0, 0.0, 0.0]];
         let rows = rows.map(|row| row.iter().map(|v| v * scale).collect());
-        Self { wavelengths_nm: vec![456.4, 490.9, 557.7, 631.4], map: to_xyz(&rows) }
+        Self { range, wavelengths_nm: vec![456.4, 490.9, 557.7, 631.4], map: to_xyz(&rows) }
     }
 }
 
@@ -160,7 +161,10 @@ impl Basis for Gauss {
     }
 
     fn reduce(&self, curve: &Curve, _role: Role) -> Vec<f64> {
-        self.wavelengths_nm.iter().map(|&w| curve.at(w)).collect()
+        // Nothing is carried beyond the range.
+        let (first, last) = (f64::from(self.range.min_nm), f64::from(self.range.max_nm));
+        let at = |&w: &f64| if (first..=last).contains(&w) { curve.at(w) } else { 0.0 };
+        self.wavelengths_nm.iter().map(at).collect()
     }
 
     fn to_xyz(&self, _lamp: usize) -> ToXyz {
@@ -181,7 +185,7 @@ mod tests {
     fn four_points_of_meyer_arise_from_orders_3_2_and_1() {
         let range = SpectralRange::default();
         let gauss = Gauss::new([3, 2, 1], range).unwrap();
-        let meyer = Gauss::meyer();
+        let meyer = Gauss::meyer(range);
         assert_eq!(gauss.len(), 4);
         for (found, known) in gauss.wavelengths_nm.iter().zip(&meyer.wavelengths_nm) {
             assert!((found - known).abs() < 0.1, "{found} against {known}");
@@ -191,7 +195,7 @@ mod tests {
             assert!((found - known).abs() < 0.006 * largest, "{found} against {known}");
         }
         // As printed, C1 alone disagrees with the rule, and by far.
-        let printed = Gauss::meyer_as_printed();
+        let printed = Gauss::meyer_as_printed(range);
         let off = gauss.map.iter().flatten().zip(printed.map.iter().flatten());
         assert!(off.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) > 0.1 * largest);
     }
@@ -219,7 +223,7 @@ mod tests {
         let exact = Observer::cie_1931_2deg().xyz(&flat, range);
         let rules =
             [[2, 2, 1], [3, 2, 1], [4, 2, 2]].map(|orders| (Gauss::new(orders, range).unwrap(), 1e-9));
-        for (basis, tolerance) in [(Gauss::meyer(), 3e-4)].into_iter().chain(rules) {
+        for (basis, tolerance) in [(Gauss::meyer(range), 3e-4)].into_iter().chain(rules) {
             for (found, exact) in map_times(&basis, &flat).iter().zip(exact) {
                 assert!((found / exact - 1.0).abs() < tolerance, "{found} against {exact}");
             }

@@ -140,7 +140,15 @@ impl Basis for Hall {
     }
 
     fn to_xyz(&self, _lamp: usize) -> ToXyz {
-        let observer = Observer::cie_1931_2deg();
+        self.map(Observer::cie_1931_2deg())
+    }
+}
+
+impl Hall {
+    /// The map to absolute XYZ of any observer: what a curve of 1 in one box is worth (book CLR_get_sample_xyz, which
+    /// divides by the sum of ȳ).
+    #[must_use]
+    pub fn map(&self, observer: &Observer) -> ToXyz {
         let mut map: ToXyz = std::array::from_fn(|_| vec![0.0; self.len()]);
         for w in self.range.wavelengths() {
             for (row, matching) in map.iter_mut().zip(&observer.matching) {

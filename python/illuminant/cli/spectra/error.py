@@ -38,7 +38,8 @@ def error(
     from illuminant.rendering import Job
 
     rows = []
-    for name in sampling or [None]:
+    wanted: list[str | None] = [*sampling] if sampling else [None]
+    for name in wanted:
         job = Job(scene, sampling=name)
         for text in job.warnings():
             warning(text)
