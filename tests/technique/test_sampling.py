@@ -121,6 +121,14 @@ def test_the_wavelengths_depend_on_the_scene_alone(scenes):
     assert len(first) == 8
 
 
+@pytest.mark.parametrize("name", ["metamers.toml", "colorchecker-fl11.toml"])
+def test_kept_spectra_and_their_matrix_are_the_image(scenes, name):
+    """Also with two lamps of different spectra, whose light is kept together."""
+    image = illuminant.render(small(Scene.load(scenes / name), 48), samples=4, keep_spectra=True)
+    again = np.einsum("hwn,cn->hwc", image.layers["spectra"], image.to_xyz)
+    assert again == pytest.approx(image.xyz, rel=1e-5, abs=1e-5 * image.xyz.max())
+
+
 # --- a prism -------------------------------------------------------------------------------------------------------------
 
 

@@ -21,8 +21,6 @@ const REFINED: usize = 3;
 const ROUNDS: usize = 5;
 /// The power of the error whose mean is made small.
 const POWER: i32 = 4;
-/// What materials that nothing is known of weigh beside those of the products.
-const UNKNOWN: f64 = 0.25;
 /// Improvements smaller than this fraction are none: it ends the search and hides rounding.
 const LEAST: f64 = 1e-9;
 
@@ -30,14 +28,15 @@ const LEAST: f64 = 1e-9;
 pub(crate) struct Fit {
     /// Numbers of the wavelengths in the range of the products, increasing.
     pub wavelengths: Vec<usize>,
-    /// For each lamp, the XYZ that one unit of filter brings at each wavelength; none for a lamp without light.
+    /// For each lamp, the XYZ that one unit of filter (with one map for all: of light) brings at each wavelength; none for
+    /// a lamp without light.
     pub weights: Vec<Option<ToXyz>>,
 }
 
 /// The best `n` wavelengths found, and their weights; `None` where there is nothing to fit.
 pub(crate) fn fit(products: &Products, n: usize) -> Option<Fit> {
     let known = products.items.len();
-    let products = &products.clone().with_unknown_materials(UNKNOWN);
+    let products = &products.clone().with_unknown_materials();
     let sides = Side::all(products);
     let points = products.range.len();
     if known == 0 || sides.is_empty() || points < n {
@@ -69,7 +68,7 @@ pub(crate) fn fit(products: &Products, n: usize) -> Option<Fit> {
     let mut weights = vec![None; products.lamps.len()];
     for (side, rows) in sides.iter().zip(by_side) {
         for &lamp in &side.lamps {
-            let luminance = products.xyz_of_lamp(lamp)[1];
+            let luminance = if products.one_map { 1.0 } else { products.xyz_of_lamp(lamp)[1] };
             weights[lamp] = Some(rows.clone().map(|row| row.iter().map(|v| v * luminance).collect()));
         }
     }
@@ -82,7 +81,7 @@ fn errors(products: &Products, sides: &[Side], set: &[usize], weights: &[ToXyz])
     let mut metrics = vec![[0.0; 6]; products.items.len()];
     for (side, weights) in sides.iter().zip(weights) {
         for (row, residual) in side.residuals(set, weights).into_iter().enumerate() {
-            let item = side.items[row];
+            let Some(item) = side.items[row] else { continue };
             metrics[item] = *side.metric(row);
             for (sum, r) in missed[item].iter_mut().zip(residual) {
                 *sum += r;

@@ -14,6 +14,8 @@ use illuminant_spectrum::{Curve, SpectralRange};
 pub struct Fitted {
     range: SpectralRange,
     wavelengths_nm: Vec<f64>,
+    /// Whether the lamps share one map: then the light of a lane is that at its wavelength.
+    one_map: bool,
     /// For each lamp, what its light in each lane is worth.
     maps: Vec<ToXyz>,
 }
@@ -29,13 +31,13 @@ impl Fitted {
         let found = fit(products, n)?;
         let first = f64::from(products.range.min_nm);
         let wavelengths_nm = found.wavelengths.iter().map(|&w| first + w as f64).collect();
-        let mut fitted = Self { range, wavelengths_nm, maps: Vec::new() };
+        let mut fitted = Self { range, wavelengths_nm, one_map: products.one_map, maps: Vec::new() };
         fitted.maps = products
             .lamps
             .iter()
             .zip(found.weights)
             .map(|(lamp, weights)| {
-                let light = fitted.reduce(lamp, Role::Emission);
+                let light = if fitted.one_map { vec![1.0; n] } else { fitted.reduce(lamp, Role::Emission) };
                 let per_unit = |row: Vec<f64>| row.iter().zip(&light).map(|(v, l)| v / l).collect();
                 weights.map_or_else(|| [0; 3].map(|_| vec![0.0; n]), |rows| rows.map(per_unit))
             })
@@ -65,6 +67,7 @@ impl Basis for Fitted {
     fn reduce(&self, curve: &Curve, role: Role) -> Vec<f64> {
         match role {
             Role::Fraction | Role::Constant => self.wavelengths_nm.iter().map(|&w| curve.at(w)).collect(),
+            Role::Emission if self.one_map => self.wavelengths_nm.iter().map(|&w| curve.at(w)).collect(),
             Role::Emission => {
                 let least = DIMMEST * curve.area(self.range) / self.range.width_nm();
                 let mean = |band: SpectralRange| curve.area(band) / band.width_nm();

@@ -6,7 +6,7 @@ use illuminant_color::{Triple, delta_e_2000_metric};
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix3, Vector3};
 use rayon::prelude::*;
 
-/// How strongly the colour of the bare lamp is held, beside all products together: it comes out exact.
+/// How strongly the colour of a bare lamp is held, beside all products together: it comes out exact.
 const HOLD_WHITE: f64 = 1e6;
 
 /// A symmetric 3 × 3 matrix: xx, xy, xz, yy, yz, zz.
@@ -15,20 +15,19 @@ type Symmetric = [f64; 6];
 /// Where in a [`Symmetric`] the element (a, b) stands.
 const AT: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
-/// What a fit knows of the lamps of one relative spectrum: one row for each product that their light makes.
+/// What a fit knows of the lamps that share a map: one row for each product that their light makes, and for each lamp one
+/// row that holds its white.
 pub(crate) struct Side {
-    /// Numbers of the lamps, all of one relative spectrum.
+    /// Numbers of the lamps: all of one relative spectrum, or all that there are.
     pub lamps: Vec<usize>,
-    /// XYZ of the spectrum with Y = 1.
-    pub white: Triple,
-    /// For each nm, what is left of the light there in each row, as luminance of the bare lamp.
+    /// For each nm, the light that weights meet there in each row: what is left of a unit of luminance, or of the lamp.
     features: Vec<Vec<f64>>,
     /// XYZ of each row, integrated at 1 nm.
     targets: Vec<Triple>,
     /// The metric of colour difference of each row.
     metrics: Vec<Symmetric>,
-    /// The product that each row belongs to.
-    pub items: Vec<usize>,
+    /// The product that each row belongs to; none for a white.
+    pub items: Vec<Option<usize>>,
 }
 
 /// The metric in which a product is fitted: as it is exposed, and as if it were lit to half the white, so that dark
@@ -52,28 +51,46 @@ pub(crate) fn quadratic(g: &Symmetric, d: Triple) -> f64 {
 }
 
 impl Side {
-    /// The sides of all products: lamps of one relative spectrum share one.
+    /// The sides of all products: lamps of one relative spectrum share one, or all do.
     pub fn all(products: &Products) -> Vec<Self> {
         let luminance: Vec<f64> = (0..products.lamps.len()).map(|l| products.xyz_of_lamp(l)[1]).collect();
+        let tables: Vec<Vec<f64>> = products.lamps.iter().map(|lamp| lamp.tabulate(products.range)).collect();
         let mut sides: Vec<Self> = Vec::new();
         let mut side_of = vec![None; products.lamps.len()];
-        let mut relative: Vec<Vec<f64>> = Vec::new();
         for lamp in 0..products.lamps.len() {
             if luminance[lamp] <= 0.0 {
                 continue;
             }
-            let table: Vec<f64> =
-                products.lamps[lamp].tabulate(products.range).iter().map(|v| v / luminance[lamp]).collect();
-            let peak = table.iter().copied().fold(0.0, f64::max);
-            let same = |other: &Vec<f64>| other.iter().zip(&table).all(|(a, b)| (a - b).abs() < 1e-9 * peak);
-            let side = relative.iter().position(same).unwrap_or_else(|| {
-                relative.push(table);
-                let white = products.xyz_of_lamp(lamp).map(|v| v / luminance[lamp]);
-                sides.push(Self::empty(white, products.range.len()));
+            let alike = |other: usize| {
+                let (a, b) = (&tables[other], &tables[lamp]);
+                let ratio = luminance[lamp] / luminance[other];
+                let peak = b.iter().copied().fold(0.0, f64::max);
+                a.iter().zip(b).all(|(a, b)| (ratio * a - b).abs() < 1e-9 * peak)
+            };
+            let side = sides.iter().position(|side| products.one_map || alike(side.lamps[0]));
+            let side = side.unwrap_or_else(|| {
+                sides.push(Self::empty(products.range.len()));
                 sides.len() - 1
             });
             sides[side].lamps.push(lamp);
             side_of[lamp] = Some(side);
+        }
+        // Where lamps share a map their own spectra are part of what it meets; else the map contains the spectrum.
+        let feature = |lamp: usize, filter: &[f64]| -> Vec<f64> {
+            if products.one_map {
+                tables[lamp].iter().zip(filter).map(|(l, f)| l * f).collect()
+            } else {
+                filter.iter().map(|f| luminance[lamp] * f).collect()
+            }
+        };
+        for (lamp, side) in side_of.iter().enumerate() {
+            if let Some(side) = *side {
+                let white = products.xyz_of_lamp(lamp);
+                let mut metric = [0.0; 6];
+                (0..3).for_each(|a| metric[AT[a][a]] = (white[1] / white[a]).powi(2) / (white[1] * white[1]));
+                let bare = feature(lamp, &vec![1.0; products.range.len()]);
+                sides[side].push(None, &bare, white, metric);
+            }
         }
         let weights: Vec<ToXyz> =
             (0..products.lamps.len()).map(|lamp| products.weights_of_lamp(lamp)).collect();
@@ -91,17 +108,16 @@ impl Side {
             let metric = metric(total, product.white);
             for (part, xyz) in product.parts.iter().zip(found) {
                 if let Some(side) = side_of[part.lamp] {
-                    sides[side].push(item, &part.filter, luminance[part.lamp], xyz, metric);
+                    sides[side].push(Some(item), &feature(part.lamp, &part.filter), xyz, metric);
                 }
             }
         }
         sides
     }
 
-    fn empty(white: Triple, wavelengths: usize) -> Self {
+    fn empty(wavelengths: usize) -> Self {
         Self {
             lamps: Vec::new(),
-            white,
             features: vec![Vec::new(); wavelengths],
             targets: Vec::new(),
             metrics: Vec::new(),
@@ -109,9 +125,9 @@ impl Side {
         }
     }
 
-    fn push(&mut self, item: usize, filter: &[f64], luminance: f64, xyz: Triple, metric: Symmetric) {
-        for (column, f) in self.features.iter_mut().zip(filter) {
-            column.push(luminance * f);
+    fn push(&mut self, item: Option<usize>, feature: &[f64], xyz: Triple, metric: Symmetric) {
+        for (column, f) in self.features.iter_mut().zip(feature) {
+            column.push(*f);
         }
         self.targets.push(xyz);
         self.metrics.push(metric);
@@ -148,19 +164,18 @@ pub(crate) struct Normal {
 impl Normal {
     /// The equations of one side, each product counted `importance` times.
     pub fn new(side: &Side, importance: &[f64], candidates: &[usize]) -> Self {
-        let of_row = |row: usize| importance[side.items[row]];
         let rows = side.targets.len();
+        let total: f64 = side.items.iter().flatten().map(|&item| importance[item]).sum();
+        let of_row = |row: usize| side.items[row].map_or(HOLD_WHITE * total, |item| importance[item]);
         // ω G, by element, so that the sums below run over memory in order.
         let weighted: Vec<Vec<f64>> =
             (0..6).map(|e| (0..rows).map(|r| of_row(r) * side.metrics[r][e]).collect()).collect();
-        let total: f64 = (0..rows).map(of_row).sum();
-        let hold = side.white.map(|w| HOLD_WHITE * total / (w * w));
         let n = candidates.len();
         let lines: Vec<Vec<Symmetric>> = (0..n)
             .into_par_iter()
             .map(|i| {
                 let left = &side.features[candidates[i]];
-                (i..n).map(|j| block(left, &side.features[candidates[j]], &weighted, hold)).collect()
+                (i..n).map(|j| block(left, &side.features[candidates[j]], &weighted)).collect()
             })
             .collect();
         let mut pairs = vec![[0.0; 6]; n * n];
@@ -179,7 +194,7 @@ impl Normal {
         let right = candidates
             .iter()
             .map(|&w| {
-                let mut sum: Triple = std::array::from_fn(|a| hold[a] * side.white[a]);
+                let mut sum = [0.0; 3];
                 for (f, pull) in side.features[w].iter().zip(&pulled) {
                     for (s, p) in sum.iter_mut().zip(pull) {
                         *s += f * p;
@@ -256,8 +271,8 @@ impl Normal {
     }
 }
 
-/// Σ ω G rᵢ rⱼ over the rows, and the hold on the white.
-fn block(left: &[f64], right: &[f64], weighted: &[Vec<f64>], hold: Triple) -> Symmetric {
+/// Σ ω G rᵢ rⱼ over the rows.
+fn block(left: &[f64], right: &[f64], weighted: &[Vec<f64>]) -> Symmetric {
     let [g0, g1, g2, g3, g4, g5] = std::array::from_fn(|e| weighted[e].as_slice());
     let mut partial = [[0.0f64; 4]; 6];
     let rows = left.len();
@@ -276,9 +291,5 @@ fn block(left: &[f64], right: &[f64], weighted: &[Vec<f64>], hold: Triple) -> Sy
             sums[0] += g[r] * t;
         }
     }
-    let mut sum = partial.map(|p| (p[0] + p[1]) + (p[2] + p[3]));
-    for (a, h) in hold.iter().enumerate() {
-        sum[AT[a][a]] += h;
-    }
-    sum
+    partial.map(|p| (p[0] + p[1]) + (p[2] + p[3]))
 }

@@ -46,9 +46,16 @@ pub struct Products {
     pub lamps: Vec<Curve>,
     /// The reflectances of the materials, as far as they are known as curves.
     pub reflectances: Vec<Curve>,
+    /// Whether all lamps must share one map to XYZ, as they must where their light is kept together.
+    pub one_map: bool,
+    /// What materials that are not known weigh beside the colours: a fit is to serve them too.
+    pub unknown: f64,
     /// The colours.
     pub items: Vec<Product>,
 }
+
+/// What unknown materials weigh by default.
+const UNKNOWN: f64 = 0.25;
 
 /// The wavelengths of `range` at which the observer's functions are not zero; `None` when there are none.
 #[must_use]
@@ -64,7 +71,14 @@ impl Products {
     /// No colour yet, of lamps over a range; `None` when the observer sees nothing of the range.
     #[must_use]
     pub fn new(range: SpectralRange, lamps: Vec<Curve>) -> Option<Self> {
-        Some(Self { range: seen(range)?, lamps, reflectances: Vec::new(), items: Vec::new() })
+        Some(Self {
+            range: seen(range)?,
+            lamps,
+            reflectances: Vec::new(),
+            one_map: false,
+            unknown: UNKNOWN,
+            items: Vec::new(),
+        })
     }
 
     /// The products of one to `depth` of the reflectances under each lamp, each seen beside a perfect diffuser under
@@ -80,7 +94,13 @@ impl Products {
         seed: u64,
     ) -> Self {
         let Some(mut products) = Self::new(range, lamps) else {
-            return Self { range, lamps: Vec::new(), reflectances: Vec::new(), items: Vec::new() };
+            return Self {
+                range,
+                lamps: Vec::new(),
+                reflectances: Vec::new(),
+                one_map: false,
+                items: Vec::new(),
+            };
         };
         products.reflectances = reflectances.to_vec();
         let tables: Vec<Vec<f64>> = reflectances.iter().map(|c| c.tabulate(products.range)).collect();
@@ -103,9 +123,9 @@ impl Products {
     }
 
     /// The same with reflectances that are in no scene and stand for those that a fit does not know: smooth steps, up and
-    /// down, at wavelengths throughout the visible. Together they weigh `share` of all others.
+    /// down, at wavelengths throughout the visible. Together they weigh [`Products::unknown`] of all others.
     #[must_use]
-    pub(crate) fn with_unknown_materials(mut self, share: f64) -> Self {
+    pub(crate) fn with_unknown_materials(mut self) -> Self {
         let total: f64 = self.items.iter().map(|item| item.weight).sum();
         let mut filters: Vec<Vec<f64>> = Vec::new();
         for centre in (400..=700).step_by(20).map(f64::from) {
@@ -115,7 +135,7 @@ impl Products {
             }
         }
         let lit: Vec<usize> = (0..self.lamps.len()).filter(|&l| self.xyz_of_lamp(l)[1] > 0.0).collect();
-        let weight = share * total / (filters.len() * lit.len().max(1)) as f64;
+        let weight = self.unknown * total / (filters.len() * lit.len().max(1)) as f64;
         for filter in filters {
             for &lamp in &lit {
                 let parts = vec![Part { lamp, filter: filter.clone() }];

@@ -56,11 +56,6 @@ fn curve(data: &Value, range: SpectralRange) -> Curve {
             number(data, "scale") * (-x * x).exp()
         }
         "box" => f64::from(u8::from((number(data, "from")..=number(data, "to")).contains(&w))),
-                number(data, "value")
-            } else {
-                0.0
-            }
-        }
         other => panic!("a curve of type {other}"),
     };
     Curve::tabulated(range, range.wavelengths().map(at).collect(), Outside::Zero)

@@ -7,7 +7,7 @@
 
 use crate::filter::FilterSampler;
 use crate::passes::{Followed, Job, Light, TileRenderer, group_lamps, renderer};
-use crate::settings::Settings;
+use crate::settings::{Layer, Settings};
 use illuminant_color::{RgbSystem, Triple};
 use illuminant_sampling::{Basis, Comparison, OneNanometre, Part, Product, Products, SpectralError, seen};
 use illuminant_scene::Scene;
@@ -24,6 +24,8 @@ const SEED: u64 = 0x5eed;
 /// What the products of the materials as such weigh beside those that paths make: they stand in for what the probes did
 /// not see.
 const STAND_IN: f64 = 0.1;
+/// What materials that are not in the scene weigh: little, for a scene says what it is made of.
+const UNKNOWN: f64 = 0.02;
 /// The most products of materials as such.
 const MOST_STAND_INS: usize = 400;
 /// A lamp that gives less than this fraction of a pixel's light is left out of its product.
@@ -151,6 +153,8 @@ pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
     let lamps: Vec<Curve> = scene.lamps.iter().map(|lamp| lamp.spectrum.clone()).collect();
     let mut products =
         Products::of_reflectances(scene.range, lamps, &scene.reflectances(), 2, MOST_STAND_INS, SEED);
+    products.unknown = UNKNOWN;
+    products.one_map = settings.layers.contains(&Layer::Spectra);
     let probes = probe(scene, settings, Set::Fitting)?;
     let Some(white) = white(&probes) else { return Some(products) };
     let stand_ins = products.items.len();
