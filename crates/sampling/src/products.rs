@@ -99,6 +99,7 @@ impl Products {
                 lamps: Vec::new(),
                 reflectances: Vec::new(),
                 one_map: false,
+                unknown: UNKNOWN,
                 items: Vec::new(),
             };
         };
