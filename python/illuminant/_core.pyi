@@ -320,8 +320,8 @@ class Render:
     def run(self, first: int, last: int, progress: Callable[[float], object] | None = None) -> bool:
         """Renders samples first..last of every pixel; False when `progress` returned False and so cancelled it."""
     def spectral_error(self) -> dict[str, Any]:
-        """ΔE00 of the spectral sampling against 1 nm in this scene: mean, p95, max, and the lamp and material of the
-        largest."""
+        """ΔE00 of the spectral sampling against 1 nm in this scene: mean, p95, max, the lamp and material of the
+        largest, and how many pixels were `judged`."""
     def warnings(self) -> list[str]:
         """Sentences on what to know before rendering."""
     def layers(self) -> list[str]:

@@ -157,7 +157,12 @@ def write(path: str | Path, contents: Contents) -> None:
         spec.attribute("spectralLayoutVersion", "1.0")
         spec.attribute("emissiveUnits", "W.m^-2.sr^-1.nm^-1")
     if contents.to_xyz is not None:
-        numbers = tuple(float(number) for number in contents.to_xyz.ravel())
+        matrix = contents.to_xyz
+        if contents.wavelengths_nm is not None:
+            matrix = matrix[
+                :, contents.wavelengths_nm.argsort(kind="stable")
+            ]  # the order in which lanes are read
+        numbers = tuple(float(number) for number in matrix.ravel())
         spec.attribute("illuminant:toXYZ", f"float[{len(numbers)}]", numbers)
 
     file = oiio.ImageOutput.create(str(path))

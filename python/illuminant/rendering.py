@@ -388,9 +388,17 @@ def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
     channels += sum({"depth": 2, "samples": 1}.get(name, 3) for name in settings.layers)
     channels += 3 * lamps if settings.lamps else 0
     if settings.keep_spectra:
-        _, _, number = settings.sampling.partition(":")
-        channels += int(number) if number.isdigit() else 401
+        channels += _lanes(settings.sampling)
     return pixels * (36 * channels + 4)
+
+
+def _lanes(sampling: str) -> int:
+    """Roughly how many samples a spectral sampling has."""
+    name, _, rest = sampling.partition(":")
+    numbers = [int(part) for part in rest.replace(":", ",").split(",") if part.isdigit()]
+    if name == "hall" and len(numbers) > 1:
+        return len(numbers) - 1
+    return {"rgb": 3, "xyz": 3, "meyer": 4}.get(name) or sum(numbers) or 401
 
 
 def check_memory(settings: Settings, pixels: int, lamps: int = 1) -> None:

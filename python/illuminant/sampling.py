@@ -55,6 +55,9 @@ SAMPLINGS = (
 FITTED_ON = 2000
 """The most products under each lamp that a fit may look at."""
 
+MOST_JUDGED = 100_000
+"""The most products under each lamp to judge by, where no number is given."""
+
 SEED = 1
 
 
@@ -123,7 +126,8 @@ def compare(
             are fitted on at most `FITTED_ON` of their products.
         unknown: other reflectances to judge by, which no fit has seen; None judges by all products of `reflectances`.
         depth: the most reflections of a product.
-        products: the most products to judge by under each lamp; None for all, 20,474 of the 24 patches.
+        products: the most products to judge by under each lamp; None for all, 20,474 of the 24 patches, up to
+            `MOST_JUDGED`.
         together: whether all lamps are in one scene, so that a fit must serve them with the same wavelengths.
         range_nm: the wavelengths that are carried.
 
@@ -131,7 +135,7 @@ def compare(
         One study for each sampling, in their order.
 
     Raises:
-        UsageError: a sampling has no such name, or there is no reflectance.
+        UsageError: a sampling has no such name, there is no reflectance, two lamps have one name, or the range is none.
         DataError: a spectrum has no such name.
 
     Example:
@@ -142,6 +146,13 @@ def compare(
     light = [_spectrum(lamp) for lamp in lamps]
     known = _reflectances(reflectances)
     judged = known if unknown is None else _reflectances(unknown)
+    names_of = [lamp.name for lamp in light]
+    if len(set(names_of)) < len(names_of):
+        raise UsageError("Two of the lamps have one name; give each its own.")
+    if not 1 <= range_nm[0] < range_nm[1] <= 20_000:
+        raise UsageError(
+            f"The range is {range_nm[0]} to {range_nm[1]} nm; expected one whole nm and a larger one."
+        )
     studies = []
     for sampling in samplings:
         by_lamp: dict[str, Error] = {}
@@ -155,7 +166,7 @@ def compare(
                     [_curve(spectrum) for spectrum in judged],
                     depth,
                     FITTED_ON,
-                    2**62 if products is None else products,
+                    MOST_JUDGED if products is None else products,
                     SEED,
                     range_nm,
                 )

@@ -164,9 +164,7 @@ def through_the_prism(scene, n, offsets):
         s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t)
         p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t)
         kept = kept * (1 - 0.5 * (s**2 + p**2))
-        direction = (
-            ratio[:, None, None] * direction + (cos_t - ratio[:, None] * cos_i)[..., None] * normal
-        )
+        direction = ratio[:, None, None] * direction + (cos_t - ratio[:, None] * cos_i)[..., None] * normal
     corner, edge = np.array([-0.9957, -2.8301]), np.array([0.00944, -0.0033])
     normal = np.array([edge[1], -edge[0]])
     distance = ((corner - origin) @ normal) / (direction @ normal)

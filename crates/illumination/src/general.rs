@@ -6,7 +6,7 @@
 //! wavelength of each lane.
 
 use crate::model::{Claims, DiscreteLobe, IlluminationModel, Incidence, Prepare, Scattered};
-use crate::{Material, REPRESENTATIVE_NM, Surface};
+use crate::{Material, Surface};
 use glam::Vec3;
 use illuminant_optics::fresnel::{conductor, dielectric, interpolated};
 use illuminant_optics::ggx::Ggx;
@@ -41,7 +41,7 @@ pub enum Metal<const N: usize> {
 }
 
 impl<const N: usize> Metal<N> {
-    /// The reflectance in every lane at an angle, in a medium of index `near`.
+    /// The reflectance in every lane at an angle; of an index, in a medium of index `near`.
     #[inline(always)]
     fn reflectance(&self, cos: f32, near: &Lanes<N>) -> Lanes<N> {
         match self {
@@ -121,10 +121,8 @@ impl<const N: usize> Prepare for General<N> {
             Surface::Filter { transmittance } => {
                 Self::Filter { transmittance: lanes(transmittance, Role::Fraction), brightness }
             }
-            Surface::Dielectric { n, roughness, dispersion, .. } => {
-                let (low, high) = n.extent(range);
-                let dispersive =
-                    *dispersion && basis.is_spectral() && high - low > 1e-6 * n.at(REPRESENTATIVE_NM);
+            Surface::Dielectric { roughness, .. } => {
+                let dispersive = basis.is_spectral() && material.disperses(range);
                 Self::Dielectric { dispersive, facets: facets(*roughness) }
             }
         }

@@ -66,6 +66,18 @@ impl Material {
         }
     }
 
+    /// Whether light of different wavelengths parts ways when it is refracted.
+    #[must_use]
+    pub fn disperses(&self, range: SpectralRange) -> bool {
+        match &self.surface {
+            Surface::Dielectric { n, dispersion: true, .. } => {
+                let (low, high) = n.extent(range);
+                high - low > 1e-6 * n.at(REPRESENTATIVE_NM)
+            }
+            _ => false,
+        }
+    }
+
     /// One number for the whole spectrum, by which paths are chosen and ended: the largest reflectance over the range.
     ///
     /// It never depends on the spectral sampling, so that all samplings follow the same paths; and since no wavelength

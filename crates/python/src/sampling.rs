@@ -52,21 +52,24 @@ fn sampling_error<'py>(
     let (lamps, fitted_on, judged_on) = (curves(lamps)?, curves(fitted_on)?, curves(judged_on)?);
     let range = SpectralRange::from(range_nm);
     let count = lamps.len();
-    let found = py.detach(move || {
-        let to_fit =
-            || Some(Products::of_reflectances(range, lamps.clone(), &fitted_on, depth, most_fitted, seed));
-        let basis = sampling.basis(range, &to_fit)?;
-        let products =
-            Products::of_reflectances(range, lamps.clone(), &judged_on, depth, most_judged, seed + 1);
+    let products = |reflectances: &[Curve], most, seed| {
+        let mut products = Products::new(range, lamps.clone())?;
+        products.add_reflectances(reflectances, depth, most, seed);
+        Some(products)
+    };
+    let found = py.detach(|| {
+        let basis = sampling.basis(range, &|| products(&fitted_on, most_fitted, seed))?;
         let wavelengths: Vec<f64> = (0..basis.len()).map(|i| basis.wavelength_nm(i)).collect();
-        Ok((wavelengths, compare(&*basis, &products)))
+        let judged = products(&judged_on, most_judged, seed + 1);
+        let kinds: Vec<_> = (0..count).map(|l| judged.as_ref().and_then(|p| p.kind(l))).collect();
+        Ok((wavelengths, kinds, judged.map(|p| compare(&*basis, &p)).unwrap_or_default()))
     });
-    let (wavelengths, found) = found.map_err(refused)?;
+    let (wavelengths, kinds, found) = found.map_err(refused)?;
     let dict = PyDict::new(py);
     dict.set_item("wavelengths_nm", wavelengths)?;
     let mut by_lamp = Vec::new();
-    for lamp in 0..count {
-        let exposed: Vec<Comparison> = found.iter().filter(|c| c.lamp == lamp).cloned().collect();
+    for kind in kinds {
+        let exposed: Vec<Comparison> = found.iter().filter(|c| Some(c.lamp) == kind).cloned().collect();
         let lit: Vec<Comparison> =
             exposed.iter().filter(|c| c.exact[1] > 0.0).cloned().map(Comparison::lit_to_half).collect();
         let errors = PyDict::new(py);

@@ -113,6 +113,7 @@ impl PyRender {
         dict.set_item("mean", found.mean)?;
         dict.set_item("p95", found.p95)?;
         dict.set_item("max", found.max)?;
+        dict.set_item("judged", found.judged)?;
         dict.set_item("lamp", scene.lamps.get(found.lamp).map(|l| l.name.clone()))?;
         let names: Vec<_> = found.materials.iter().map(|&m| scene.materials[m].name.clone()).collect();
         dict.set_item("material", (!names.is_empty()).then(|| names.join(" × ")))?;
@@ -184,6 +185,13 @@ impl PyRender {
     /// The map from spectral samples to XYZ for light of a lamp, (3, N).
     #[pyo3(signature = (lamp=0))]
     fn to_xyz<'py>(&self, py: Python<'py>, lamp: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let lamps = self.0.scene().lamps.len();
+        if lamp >= lamps {
+            return Err(PyValueError::new_err(format!(
+                "lamps are numbered from 0 to {}, not {lamp}",
+                lamps - 1
+            )));
+        }
         let rows = self.0.basis().to_xyz(lamp);
         let flat: Vec<f64> = rows.iter().flatten().copied().collect();
         Ok(shaped(Array2::from_shape_vec((3, flat.len() / 3), flat))?.to_pyarray(py))

@@ -51,6 +51,8 @@ pub struct SpectralError {
     pub lamp: usize,
     /// The materials of the largest, as indices.
     pub materials: Vec<usize>,
+    /// How many colours were judged, black ones left out: with none the error says nothing.
+    pub judged: usize,
 }
 
 impl SpectralError {
@@ -71,7 +73,8 @@ impl SpectralError {
             sum >= 0.95 * total
         });
         let p95 = p95.map_or(max, |(e, _)| *e);
-        Self { mean, p95, max, lamp: worst.lamp, materials: worst.materials.clone() }
+        let judged = found.iter().filter(|c| c.exact[1] > 0.0).count();
+        Self { mean, p95, max, lamp: worst.lamp, materials: worst.materials.clone(), judged }
     }
 }
 
@@ -127,7 +130,9 @@ mod tests {
         )
         .unwrap();
         let products = |lamps: &[Curve]| {
-            Products::of_reflectances(range, lamps.to_vec(), std::slice::from_ref(&paint), 2, 100, 0)
+            let mut products = Products::new(range, lamps.to_vec()).unwrap();
+            products.add_reflectances(std::slice::from_ref(&paint), 2, 100, 0);
+            products
         };
         let error =
             |basis: &dyn Basis, lamps: &[Curve]| SpectralError::over(&compare(basis, &products(lamps)));

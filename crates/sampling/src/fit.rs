@@ -39,10 +39,12 @@ pub(crate) fn fit(products: &Products, n: usize) -> Option<Fit> {
     let products = &products.clone().with_unknown_materials();
     let sides = Side::all(products);
     let points = products.range.len();
-    if known == 0 || sides.is_empty() || points < n {
+    if sides.is_empty() || points < n {
         return None;
     }
     let base: Vec<f64> = products.items.iter().map(|item| item.weight).collect();
+    // With no product known, the unknown ones are all there is.
+    let known = if known == 0 { products.items.len() } else { known };
     let total: f64 = base[..known].iter().sum();
     let mut importance = base.clone();
     let mut set = Vec::new();
@@ -65,6 +67,10 @@ pub(crate) fn fit(products: &Products, n: usize) -> Option<Fit> {
         }
     }
     let (_, wavelengths, by_side) = best?;
+    let sound = |map: &ToXyz| map.iter().flatten().all(|w| w.is_finite()) && map[1].iter().any(|w| *w > 0.0);
+    if !by_side.iter().all(sound) {
+        return None;
+    }
     let mut weights = vec![None; products.lamps.len()];
     for (side, rows) in sides.iter().zip(by_side) {
         for &lamp in &side.lamps {

@@ -1,7 +1,7 @@
 //! `hall:N`: box sampling and box reconstruction (Hall 1983; book 3.5.2 and III.8).
 
 use crate::{Basis, Products, Role, ToXyz};
-use illuminant_color::{Lab, delta_e_2000};
+use illuminant_color::{Lightness, LuvWhite};
 use illuminant_spectrum::{Curve, LUMINOUS_EFFICACY, Observer, SpectralRange};
 
 /// N abutting boxes. A curve is its mean over each box (a sampling function of area 1); the reconstructed curve has
@@ -36,10 +36,10 @@ impl Hall {
     }
 
     /// The search of the book (3.5.2, footnote 6): from boxes of one width, the bounds are shifted as long as that makes
-    /// the mean error over the products smaller, by ever shorter steps.
+    /// the mean error in L\*u\*v\* over the products smaller, by ever shorter steps.
     #[must_use]
     pub fn local_search(n: usize, range: SpectralRange, products: &Products) -> Self {
-        Self::even(n, range).descend(products).0
+        Self::even(n, range).descend(&Judge::new(products)).0
     }
 
     /// A better search: the same descent from several starts, which are the boxes of one width, boxes that hold equal
@@ -64,14 +64,14 @@ impl Hall {
             let bounds = even.bounds_nm.iter().zip(&shares).map(|(e, s)| (e + mix * (s - e)).round());
             Self::new(bounds.collect(), range)
         };
-        let ends = [0.0, 0.35, 0.7, 1.0].map(|mix| start(mix).descend(products));
+        let judge = Judge::new(products);
+        let ends = [0.0, 0.35, 0.7, 1.0].map(|mix| start(mix).descend(&judge));
         let best = ends.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
         best.map_or(even, |(boxes, _)| boxes)
     }
 
     /// Shifts bounds while that lowers the error; the boxes and their error.
-    fn descend(mut self, products: &Products) -> (Self, f64) {
-        let judge = Judge::new(products);
+    fn descend(mut self, judge: &Judge<'_>) -> (Self, f64) {
         let mut best = judge.error(&self);
         for step in [16.0, 8.0, 4.0, 2.0, 1.0] {
             loop {
@@ -91,7 +91,8 @@ impl Hall {
                         }
                     }
                 }
-                if best >= before {
+                // Written so that an error that is no number ends the search too.
+                if !(best < before) {
                     break;
                 }
             }
@@ -162,7 +163,8 @@ impl Hall {
 /// The error of boxes on products of one and two reflections, by running sums.
 struct Judge<'a> {
     products: &'a Products,
-    exact: Vec<(Lab, [f64; 3])>,
+    /// CIE L\*u\*v\* of each product, and what turns XYZ into it.
+    exact: Vec<([f64; 3], LuvWhite)>,
     chosen: Vec<(usize, Vec<usize>)>,
 }
 
@@ -170,14 +172,16 @@ impl<'a> Judge<'a> {
     fn new(products: &'a Products) -> Self {
         let mut chosen = Vec::new();
         let mut exact = Vec::new();
+        let weights: Vec<ToXyz> = (0..products.lamps.len()).map(|l| products.weights_of_lamp(l)).collect();
         for item in &products.items {
             let ([part], Some(factors)) = (item.parts.as_slice(), &item.factors) else { continue };
             if factors.len() > 2 {
                 continue;
             }
-            let weights = products.weights_of_lamp(part.lamp);
-            let xyz = weights.map(|w| w.iter().zip(&part.filter).map(|(w, f)| w * f).sum());
-            exact.push((Lab::from_xyz(xyz, item.white), item.white));
+            let xyz =
+                weights[part.lamp].each_ref().map(|w| w.iter().zip(&part.filter).map(|(w, f)| w * f).sum());
+            let white = LuvWhite::new(item.white);
+            exact.push((white.luv(xyz, Lightness::Cie), white));
             chosen.push((part.lamp, factors.clone()));
         }
         Self { products, exact, chosen }
@@ -195,7 +199,8 @@ impl<'a> Judge<'a> {
             .map(|((lamp, materials), (exact, white))| {
                 let value = |i: usize| materials.iter().fold(lamps[*lamp][i], |v, &m| v * fractions[m][i]);
                 let xyz = map.each_ref().map(|row| row.iter().enumerate().map(|(i, w)| w * value(i)).sum());
-                delta_e_2000(*exact, Lab::from_xyz(xyz, *white))
+                let found: [f64; 3] = white.luv(xyz, Lightness::Cie);
+                exact.iter().zip(found).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
             })
             .sum();
         total / self.chosen.len().max(1) as f64

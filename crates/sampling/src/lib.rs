@@ -28,7 +28,7 @@ pub use gauss::Gauss;
 pub use hall::Hall;
 pub use lanes::{LANE_COUNTS, Lanes, lanes_for};
 pub use one_nanometre::OneNanometre;
-pub use products::{Part, Product, Products, seen};
+pub use products::{Part, Product, Products, seen, white_of};
 pub use registry::{Boxes, SAMPLING_NAMES, SamplingError, SpectralSampling};
 pub use tristimulus::{Normalisation, Tristimulus};
 pub use uniform::Uniform;

@@ -9,6 +9,9 @@ use rayon::prelude::*;
 /// How strongly the colour of a bare lamp is held, beside all products together: it comes out exact.
 const HOLD_WHITE: f64 = 1e6;
 
+/// Products darker than this fraction of the white are lit no further when they are lit to half of it.
+const DARKEST: f64 = 1e-4;
+
 /// A symmetric 3 × 3 matrix: xx, xy, xz, yy, yz, zz.
 type Symmetric = [f64; 6];
 
@@ -34,7 +37,7 @@ pub(crate) struct Side {
 /// products count too.
 fn metric(xyz: Triple, white: Triple) -> Symmetric {
     let exposed = delta_e_2000_metric(xyz, white);
-    let scale = 0.5 * white[1] / xyz[1].max(1e-6 * white[1]);
+    let scale = 0.5 * white[1] / xyz[1].max(DARKEST * white[1]);
     let lit = delta_e_2000_metric(xyz.map(|v| v * scale), white);
     let mut sum = [0.0; 6];
     for a in 0..3 {
@@ -58,17 +61,9 @@ impl Side {
         let mut sides: Vec<Self> = Vec::new();
         let mut side_of = vec![None; products.lamps.len()];
         for lamp in 0..products.lamps.len() {
-            if luminance[lamp] <= 0.0 {
-                continue;
-            }
-            let alike = |other: usize| {
-                let (a, b) = (&tables[other], &tables[lamp]);
-                let ratio = luminance[lamp] / luminance[other];
-                let peak = b.iter().copied().fold(0.0, f64::max);
-                a.iter().zip(b).all(|(a, b)| (ratio * a - b).abs() < 1e-9 * peak)
-            };
-            let side = sides.iter().position(|side| products.one_map || alike(side.lamps[0]));
-            let side = side.unwrap_or_else(|| {
+            let Some(kind) = products.kind(lamp) else { continue };
+            let found = if products.one_map { sides.len().checked_sub(1) } else { side_of[kind] };
+            let side = found.unwrap_or_else(|| {
                 sides.push(Self::empty(products.range.len()));
                 sides.len() - 1
             });
@@ -83,13 +78,13 @@ impl Side {
                 filter.iter().map(|f| luminance[lamp] * f).collect()
             }
         };
-        for (lamp, side) in side_of.iter().enumerate() {
-            if let Some(side) = *side {
-                let white = products.xyz_of_lamp(lamp);
+        for lamp in products.representatives() {
+            if let Some(side) = side_of[lamp] {
+                let xyz = products.xyz_of_lamp(lamp);
                 let mut metric = [0.0; 6];
-                (0..3).for_each(|a| metric[AT[a][a]] = (white[1] / white[a]).powi(2) / (white[1] * white[1]));
+                (0..3).for_each(|a| metric[AT[a][a]] = 1.0 / xyz[a].max(xyz[1]).powi(2));
                 let bare = feature(lamp, &vec![1.0; products.range.len()]);
-                sides[side].push(None, &bare, white, metric);
+                sides[side].push(None, &bare, xyz, metric);
             }
         }
         let weights: Vec<ToXyz> =
@@ -231,7 +226,7 @@ impl Normal {
     /// The best non-negative weights on a set, as rows X, Y, Z, and how much of the error they take away.
     pub fn nonnegative(&self, set: &[usize]) -> (ToXyz, f64) {
         let (a, b) = self.system(set);
-        let (x, gain) = least_squares(&a, &b);
+        let (x, gain) = least_squares(a, &b);
         ([0, 1, 2].map(|row| (0..set.len()).map(|i| x[3 * i + row]).collect()), gain)
     }
 

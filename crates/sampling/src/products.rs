@@ -28,14 +28,16 @@ pub struct Product {
 
 /// Lamps, and what becomes of their light.
 ///
-/// Only wavelengths that the observer sees matter to a colour, so the filters are known there and nowhere else.
+/// Only wavelengths that the observer sees matter to a colour, so the filters are known there and nowhere else. Lamps of
+/// one relative spectrum are of one kind, and one of them stands for all.
 ///
 /// ```
 /// use illuminant_sampling::Products;
 /// use illuminant_spectrum::{Curve, Outside, SpectralRange, daylight};
 /// let day = daylight(6504.0).unwrap();
 /// let paint = Curve::new(vec![400.0, 700.0], vec![0.1, 0.7], Outside::Hold).unwrap();
-/// let products = Products::of_reflectances(SpectralRange::default(), vec![day], &[paint], 4, 2000, 0);
+/// let mut products = Products::new(SpectralRange::default(), vec![day]).unwrap();
+/// products.add_reflectances(&[paint], 4, 2000, 0);
 /// assert_eq!(products.items.len(), 4); // one to four reflections from one paint
 /// ```
 #[derive(Clone, Debug)]
@@ -52,10 +54,16 @@ pub struct Products {
     pub unknown: f64,
     /// The colours.
     pub items: Vec<Product>,
+    lamp_xyz: Vec<Triple>,
+    kinds: Vec<Option<usize>>,
 }
 
 /// What unknown materials weigh by default.
 const UNKNOWN: f64 = 0.25;
+
+/// The least that X, Y or Z of a white may be beside its Y: the lightness of a colour beside deep red light, which has no Z,
+/// would know no bounds.
+const LEAST_OF_WHITE: f64 = 0.01;
 
 /// The wavelengths of `range` at which the observer's functions are not zero; `None` when there are none.
 #[must_use]
@@ -67,60 +75,39 @@ pub fn seen(range: SpectralRange) -> Option<SpectralRange> {
     (seen.min_nm < seen.max_nm).then_some(seen)
 }
 
+/// The white by which colours under a lamp are judged: the XYZ of the lamp, no component negligible.
+#[must_use]
+pub fn white_of(xyz: Triple) -> Triple {
+    xyz.map(|v| v.max(LEAST_OF_WHITE * xyz[1]))
+}
+
 impl Products {
     /// No colour yet, of lamps over a range; `None` when the observer sees nothing of the range.
     #[must_use]
     pub fn new(range: SpectralRange, lamps: Vec<Curve>) -> Option<Self> {
-        Some(Self {
-            range: seen(range)?,
-            lamps,
-            reflectances: Vec::new(),
-            one_map: false,
-            unknown: UNKNOWN,
-            items: Vec::new(),
-        })
+        let range = seen(range)?;
+        let lamp_xyz: Vec<Triple> = lamps.iter().map(|l| Observer::cie_1931_2deg().xyz(l, range)).collect();
+        let kinds = kinds(&lamps, &lamp_xyz, range);
+        let reflectances = Vec::new();
+        let items = Vec::new();
+        Some(Self { range, lamps, reflectances, one_map: false, unknown: UNKNOWN, items, lamp_xyz, kinds })
     }
 
-    /// The products of one to `depth` of the reflectances under each lamp, each seen beside a perfect diffuser under
-    /// that lamp. Those of one and of two reflections are all taken, as long as they fit into `most` for each lamp; of
-    /// the longer ones as many as fit, drawn by `seed`.
-    #[must_use]
-    pub fn of_reflectances(
-        range: SpectralRange,
-        lamps: Vec<Curve>,
-        reflectances: &[Curve],
-        depth: usize,
-        most: usize,
-        seed: u64,
-    ) -> Self {
-        let Some(mut products) = Self::new(range, lamps) else {
-            return Self {
-                range,
-                lamps: Vec::new(),
-                reflectances: Vec::new(),
-                one_map: false,
-                unknown: UNKNOWN,
-                items: Vec::new(),
-            };
-        };
-        products.reflectances = reflectances.to_vec();
-        let tables: Vec<Vec<f64>> = reflectances.iter().map(|c| c.tabulate(products.range)).collect();
+    /// Adds the products of one to `depth` of the reflectances under each kind of lamp, each seen beside a perfect
+    /// diffuser under that lamp. Those of one and of two reflections are all taken, as long as they fit into `most` for
+    /// each lamp; of the longer ones as many as fit, drawn by `seed`.
+    pub fn add_reflectances(&mut self, reflectances: &[Curve], depth: usize, most: usize, seed: u64) {
+        self.reflectances = reflectances.to_vec();
+        let tables: Vec<Vec<f64>> = reflectances.iter().map(|c| c.tabulate(self.range)).collect();
         for chosen in choose_multisets(tables.len(), depth, most, seed) {
-            let mut filter = vec![1.0; products.range.len()];
+            let mut filter = vec![1.0; self.range.len()];
             for &material in &chosen {
                 for (product, r) in filter.iter_mut().zip(&tables[material]) {
                     *product *= r;
                 }
             }
-            for lamp in 0..products.lamps.len() {
-                let white = products.xyz_of_lamp(lamp);
-                if white[1] > 0.0 {
-                    let parts = vec![Part { lamp, filter: filter.clone() }];
-                    products.items.push(Product { parts, white, weight: 1.0, factors: Some(chosen.clone()) });
-                }
-            }
+            self.add_under_each_kind(&filter, 1.0, Some(&chosen));
         }
-        products
     }
 
     /// The same with reflectances that are in no scene and stand for those that a fit does not know: smooth steps, up and
@@ -128,6 +115,7 @@ impl Products {
     #[must_use]
     pub(crate) fn with_unknown_materials(mut self) -> Self {
         let total: f64 = self.items.iter().map(|item| item.weight).sum();
+        let total = if total > 0.0 { total } else { 1.0 };
         let mut filters: Vec<Vec<f64>> = Vec::new();
         for centre in (400..=700).step_by(20).map(f64::from) {
             for width in [8.0, 25.0, -8.0, -25.0] {
@@ -135,21 +123,36 @@ impl Products {
                 filters.push(self.range.wavelengths().map(step).collect());
             }
         }
-        let lit: Vec<usize> = (0..self.lamps.len()).filter(|&l| self.xyz_of_lamp(l)[1] > 0.0).collect();
-        let weight = self.unknown * total / (filters.len() * lit.len().max(1)) as f64;
+        let weight = self.unknown * total / (filters.len() * self.representatives().count().max(1)) as f64;
         for filter in filters {
-            for &lamp in &lit {
-                let parts = vec![Part { lamp, filter: filter.clone() }];
-                self.items.push(Product { parts, white: self.xyz_of_lamp(lamp), weight, factors: None });
-            }
+            self.add_under_each_kind(&filter, weight, None);
         }
         self
+    }
+
+    fn add_under_each_kind(&mut self, filter: &[f64], weight: f64, factors: Option<&[usize]>) {
+        for lamp in self.representatives().collect::<Vec<_>>() {
+            let parts = vec![Part { lamp, filter: filter.to_vec() }];
+            let white = white_of(self.lamp_xyz[lamp]);
+            self.items.push(Product { parts, white, weight, factors: factors.map(<[usize]>::to_vec) });
+        }
+    }
+
+    /// The lamp that stands for a lamp; `None` for one without light that the observer sees.
+    #[must_use]
+    pub fn kind(&self, lamp: usize) -> Option<usize> {
+        self.kinds[lamp]
+    }
+
+    /// The lamps that stand for the kinds.
+    pub fn representatives(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.lamps.len()).filter(|&lamp| self.kinds[lamp] == Some(lamp))
     }
 
     /// Absolute XYZ of a lamp, integrated at 1 nm.
     #[must_use]
     pub fn xyz_of_lamp(&self, lamp: usize) -> Triple {
-        Observer::cie_1931_2deg().xyz(&self.lamps[lamp], self.range)
+        self.lamp_xyz[lamp]
     }
 
     /// K_m x̄(λ) L(λ) and its likes for Y and Z, at each nm of the range: what turns a filter into XYZ.
@@ -161,6 +164,30 @@ impl Products {
             self.range.wavelengths().map(at).collect()
         })
     }
+}
+
+/// For each lamp the first one of its relative spectrum.
+fn kinds(lamps: &[Curve], xyz: &[Triple], range: SpectralRange) -> Vec<Option<usize>> {
+    let mut known: Vec<(usize, Vec<f64>)> = Vec::new();
+    let mut kinds = Vec::with_capacity(lamps.len());
+    for (lamp, curve) in lamps.iter().enumerate() {
+        let luminance = xyz[lamp][1];
+        if !(luminance > 0.0) {
+            kinds.push(None);
+            continue;
+        }
+        let relative: Vec<f64> = curve.tabulate(range).iter().map(|v| v / luminance).collect();
+        let peak = relative.iter().copied().fold(0.0, f64::max);
+        let same = |(_, other): &&(usize, Vec<f64>)| {
+            other.iter().zip(&relative).all(|(a, b)| (a - b).abs() < 1e-9 * peak)
+        };
+        let kind = known.iter().find(same).map_or(lamp, |(kind, _)| *kind);
+        if kind == lamp {
+            known.push((lamp, relative));
+        }
+        kinds.push(Some(kind));
+    }
+    kinds
 }
 
 /// Multisets of 1 to `depth` of `n` things: all of them while they fit into `most`, else as many, drawn by `seed`.
@@ -241,6 +268,15 @@ mod tests {
         assert_eq!(chosen.iter().filter(|m| m.len() <= 2).count(), 324);
         assert_eq!(choose_multisets(24, 4, 2000, 1), chosen);
         assert_eq!(choose_multisets(200, 4, 500, 1).len(), 500);
+    }
+
+    #[test]
+    fn lamps_of_one_relative_spectrum_are_of_one_kind() {
+        let day = illuminant_spectrum::daylight(6504.0).unwrap();
+        let lamps = vec![day.clone(), Curve::constant(1.0), day.scaled(3.0), Curve::constant(0.0)];
+        let products = Products::new(SpectralRange::default(), lamps).unwrap();
+        assert_eq!([0, 1, 2, 3].map(|l| products.kind(l)), [Some(0), Some(1), Some(0), None]);
+        assert_eq!(products.representatives().collect::<Vec<_>>(), [0, 1]);
     }
 
     #[test]

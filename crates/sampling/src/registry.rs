@@ -213,7 +213,7 @@ impl SpectralSampling {
                 Some(fitted) => Box::new(fitted),
                 None => Box::new(Uniform::new(many(*n)?, range)),
             },
-            Self::Uniform(n) => Box::new(Uniform::new(*n, range)),
+            Self::Uniform(n) => Box::new(Uniform::new(many(*n)?, range)),
             Self::Hall(Boxes::Even(n)) => Box::new(Hall::even(many(*n)?, range)),
             Self::Hall(Boxes::Local(n)) => match products() {
                 Some(p) => Box::new(Hall::local_search(many(*n)?, range, &p)),
@@ -223,7 +223,16 @@ impl SpectralSampling {
                 Some(p) => Box::new(Hall::global_search(many(*n)?, range, &p)),
                 None => Box::new(Hall::even(many(*n)?, range)),
             },
-            Self::Hall(Boxes::At(bounds)) => Box::new(Hall::new(bounds.clone(), range)),
+            Self::Hall(Boxes::At(bounds)) => {
+                let holds = |pair: &[f64]| range.wavelengths().any(|w| (pair[0]..pair[1]).contains(&w));
+                if let Some(empty) = bounds.windows(2).find(|pair| !holds(pair)) {
+                    return Err(SamplingError::Unfit(format!(
+                        "{self}: the box from {} to {} nm holds nothing of the range {}–{} nm",
+                        empty[0], empty[1], range.min_nm, range.max_nm
+                    )));
+                }
+                Box::new(Hall::new(bounds.clone(), range))
+            }
             Self::Meyer => Box::new(Gauss::meyer(range)),
             Self::MeyerAsPrinted => Box::new(Gauss::meyer_as_printed(range)),
             Self::Gauss(orders) => Box::new(Gauss::new(*orders, range).map_err(SamplingError::Unfit)?),

@@ -35,7 +35,13 @@ fn checker() -> Vec<Curve> {
 }
 
 fn products(lamps: &[Curve], most: usize) -> Products {
-    Products::of_reflectances(SpectralRange::default(), lamps.to_vec(), &checker(), 4, most, 1)
+    products_of(&checker(), lamps, most, 1)
+}
+
+fn products_of(reflectances: &[Curve], lamps: &[Curve], most: usize, seed: u64) -> Products {
+    let mut products = Products::new(SpectralRange::default(), lamps.to_vec()).unwrap();
+    products.add_reflectances(reflectances, 4, most, seed);
+    products
 }
 
 /// Mean and maximum as exposed, and with every product lit to half the white.
@@ -84,11 +90,28 @@ fn materials_that_the_fit_has_not_seen_are_served_too() {
     for name in LAMPS {
         let lamps = [lamp(name)];
         let some = products(&lamps, FITTED_ON);
-        let others = Products::of_reflectances(range, lamps.to_vec(), &unknown, 4, 10_000, 2);
+        let others = products_of(&unknown, &lamps, 10_000, 2);
         for (n, mean, max) in [(8, 0.3, 3.0), (12, 0.11, 1.0)] {
             let basis = Fitted::new(n, range, &some).unwrap();
             let (exposed, _) = judge(&basis, &others);
             assert!(exposed.mean <= mean && exposed.max <= max, "{name} fitted:{n} {exposed:?}");
         }
+    }
+}
+
+#[test]
+fn a_lamp_so_red_that_it_has_no_z_is_a_lamp() {
+    let red = Curve::new(vec![655.0, 667.0, 680.0], vec![0.0, 1.0, 0.0], Outside::Zero).unwrap();
+    for lamps in [vec![red.clone()], vec![red.clone(), lamp("d65")]] {
+        for one_map in [false, true] {
+            let mut some = products(&lamps, 500);
+            some.one_map = one_map;
+            let basis = Fitted::new(8, SpectralRange::default(), &some).unwrap();
+            let (exposed, _) = judge(&basis, &some);
+            assert!(exposed.mean < 0.3 && exposed.max < 3.0, "{} lamps, {one_map}: {exposed:?}", lamps.len());
+        }
+        let boxes =
+            illuminant_sampling::Hall::local_search(9, SpectralRange::default(), &products(&lamps, 100));
+        assert_eq!(boxes.len(), 9);
     }
 }

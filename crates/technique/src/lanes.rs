@@ -62,7 +62,7 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
         samples: Range<usize>,
         groups: &[usize],
         companion: Option<Wavelength>,
-        light: Light,
+        light: Light<'_>,
     ) -> Self {
         let range = scene.range;
         let lanes = |values: &[f64]| Lanes::<N>::from_slice(&values[samples.clone()]);
@@ -91,18 +91,18 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
         });
         let mut to_xyz: Vec<[Lanes<N>; 3]> =
             groups.iter().map(|&lamp| basis.to_xyz(lamp).each_ref().map(|row| lanes(row))).collect();
-        // Under unit light paths end where they would be dispersed: no sample goes on.
+        // Under flat light paths end where they would be dispersed: no sample goes on.
         let carried = match light {
             Light::Lamps => companion.map(|_| basis.len() - 1),
-            Light::Unit => Some(usize::MAX),
+            Light::Flat(_) => Some(usize::MAX),
         };
         if let (Some(wavelength), Some(own)) = (companion, carried) {
             let map = wavelength.to_xyz(own);
             to_xyz.extend(groups.iter().map(|_| map.each_ref().map(|row| lanes(row))));
         }
-        let emission = scene.lamps.iter().map(|lamp| match light {
+        let emission = scene.lamps.iter().enumerate().map(|(i, lamp)| match light {
             Light::Lamps => lanes(&basis.reduce(&lamp.spectrum, Role::Emission)),
-            Light::Unit => lanes(&vec![1.0; basis.len()]),
+            Light::Flat(values) => lanes(&vec![f64::from(values[i]); basis.len()]),
         });
         let span = range.width_nm() - 1.0;
         let position: Vec<f64> =

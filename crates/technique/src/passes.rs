@@ -73,12 +73,12 @@ pub struct Replay {
 }
 
 /// The light that lamps give in the lanes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Light {
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Light<'a> {
     /// Their own.
     Lamps,
-    /// 1 in every lane: what arrives is then what a path leaves of any light.
-    Unit,
+    /// A number for each lamp, the same in every lane: what arrives is then what a path leaves of any light.
+    Flat(&'a [f32]),
 }
 
 /// The passes of a sampling in bundles of N lanes, through the model M.
@@ -89,7 +89,7 @@ struct Passes<const N: usize, M> {
 }
 
 impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
-    fn new(scene: &Scene, basis: &dyn Basis, depth: Option<u32>, groups: &[usize], light: Light) -> Self {
+    fn new(scene: &Scene, basis: &dyn Basis, depth: Option<u32>, groups: &[usize], light: Light<'_>) -> Self {
         let brightness: Vec<f32> =
             scene.materials.iter().map(|material| material.brightness(scene.range) as f32).collect();
         let passes = |basis: &dyn Basis, companion: Option<Wavelength>| -> Vec<Pass<N, M>> {
@@ -316,7 +316,7 @@ pub(crate) fn renderer(
     basis: &dyn Basis,
     depth: Option<u32>,
     groups: &[usize],
-    light: Light,
+    light: Light<'_>,
 ) -> Result<Box<dyn TileRenderer>, RenderError> {
     let samples = basis.len() + usize::from(wavelengths(scene, basis).is_some());
     match lanes_for(samples).unwrap_or(32) {

@@ -252,8 +252,12 @@ impl PathTracer {
         let outside = local.z > 0.0;
         let around = path.media;
         let beyond = if outside { around.entered(material) } else { around.left(material) };
-        let (near, far) =
-            if outside { (around.innermost(), Some(material)) } else { (Some(material), beyond.innermost()) };
+        // An opaque surface, or a filter, has the same medium on both sides.
+        let (near, far) = if outside || !model.bounds_media() {
+            (around.innermost(), Some(material))
+        } else {
+            (Some(material), beyond.innermost())
+        };
         let at = Incidence {
             to_viewer: local,
             near: pass.index(near),

@@ -127,17 +127,17 @@ impl Render {
         if scene.lamps.is_empty() {
             return Err(RenderError::NoLight);
         }
-        let basis = sampling.basis(scene.range, &|| products(&scene, &settings))?;
-        let by_lamp = settings.layers.contains(&Layer::Lamps);
-        let (groups, group_of) = group_lamps(&*basis, scene.lamps.len(), by_lamp);
-        let names: Vec<String> = scene.lamps.iter().map(|lamp| lamp.name.clone()).collect();
-        let film = Film::new(scene.camera.crop, &settings, &names, basis.len());
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads)
             .build()
             .map_err(|e| RenderError::Setting(format!("no threads can be started: {e}")))?;
+        let basis = pool.install(|| sampling.basis(scene.range, &|| products(&scene, &settings)))?;
+        let by_lamp = settings.layers.contains(&Layer::Lamps);
+        let (groups, group_of) = group_lamps(&*basis, scene.lamps.len(), by_lamp);
+        let names: Vec<String> = scene.lamps.iter().map(|lamp| lamp.name.clone()).collect();
+        let film = Film::new(scene.camera.crop, &settings, &names, basis.len());
         let (Technique::Path, Illumination::General) = (technique, illumination);
-        let renderer = renderer(&scene, &*basis, settings.depth, &groups, Light::Lamps)?;
+        let renderer = pool.install(|| renderer(&scene, &*basis, settings.depth, &groups, Light::Lamps))?;
         let white = Observer::cie_1931_2deg().xyz(&Curve::constant(1.0), scene.range);
         let albedo = scene.materials.iter().map(|material| {
             let reflectance = material.representative_reflectance(scene.range);
@@ -157,8 +157,8 @@ impl Render {
         Ok(Self { job, renderer, basis, film, statistics: Statistics::default(), pool })
     }
 
-    /// Renders samples `samples` of every pixel, those left out that it holds already; false when it was cancelled. Tiles are taken in any order by any
-    /// thread, and the bits do not depend on it.
+    /// Renders `samples` of every pixel, without those that it holds already; false when it was cancelled. Tiles are taken
+    /// in any order by any thread, and the bits do not depend on it.
     pub fn run(&mut self, samples: Range<u64>, progress: &Progress) -> bool {
         let start = Instant::now();
         let count = samples.end.saturating_sub(samples.start);
@@ -268,7 +268,7 @@ impl Render {
     /// What the spectral sampling costs in colour in this scene (CIEDE2000 against 1 nm), measured on paths of its own.
     #[must_use]
     pub fn spectral_error(&self) -> SpectralError {
-        spectral_error(&self.job.scene, &self.job.settings, &*self.basis)
+        self.pool.install(|| spectral_error(&self.job.scene, &self.job.settings, &*self.basis))
     }
 
     /// Sentences on what the user should know before rendering this scene with this sampling.

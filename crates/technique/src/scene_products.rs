@@ -1,7 +1,7 @@
 //! The colours that a scene shows, for fitting a spectral sampling to it and for judging one.
 //!
-//! A few paths are followed through the scene at every nm, with light of 1 from each lamp. What arrives at a pixel is
-//! then, for each lamp, the sum of all products of reflectances, transmittances and absorptions that its paths met,
+//! A few paths are followed through the scene at every nm, with the same light at every nm from each lamp. What arrives at a
+//! pixel is then, for each kind of lamp, the sum of all products of reflectances, transmittances and absorptions that its paths met,
 //! at the angles and depths at which they met them, each weighted by how likely a path makes it. A sampling is fitted on
 //! one set of paths and judged on another.
 
@@ -9,17 +9,19 @@ use crate::filter::FilterSampler;
 use crate::passes::{Followed, Job, Light, TileRenderer, group_lamps, renderer};
 use crate::settings::{Layer, Settings};
 use illuminant_color::{RgbSystem, Triple};
-use illuminant_sampling::{Basis, Comparison, OneNanometre, Part, Product, Products, SpectralError, seen};
+use illuminant_sampling::{Basis, Comparison, OneNanometre, Part, Product, Products, SpectralError};
 use illuminant_scene::Scene;
-use illuminant_spectrum::{Curve, LUMINOUS_EFFICACY, Observer, SpectralRange};
+use illuminant_spectrum::Curve;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Pixels along each side of the grid that is probed.
 const GRID: u32 = 24;
 /// Paths of each pixel.
 const PATHS: u64 = 4;
-/// The seed of the probes: the same for every render, so that the wavelengths depend on the scene alone.
+/// The seed of the probes: the same for every render, so that the wavelengths depend on the scene, on how long its paths
+/// are, and on the size of its image, but not on seed, threads or crop.
 const SEED: u64 = 0x5eed;
 /// What the products of the materials as such weigh beside those that paths make: they stand in for what the probes did
 /// not see.
@@ -42,10 +44,12 @@ enum Set {
     Judging = 1,
 }
 
-/// What a pixel shows, by lamp and at every nm that is seen.
+/// What a pixel shows, by kind of lamp and at every nm that is seen.
 struct Probe {
     pixel: [u32; 2],
-    /// For each lamp the filter, and the XYZ of its light.
+    /// Where in the list of pixels it stands: its paths are numbered by that, so that cells that share a pixel differ.
+    cell: usize,
+    /// For each kind of lamp the filter, and the XYZ of its light.
     parts: Vec<(Vec<f64>, Triple)>,
     material: Option<usize>,
     emits: bool,
@@ -86,50 +90,50 @@ fn pixels(scene: &Scene, set: Set) -> Vec<[u32; 2]> {
 fn follow(
     renderer: &dyn TileRenderer,
     job: &Job,
-    pixel: [u32; 2],
+    (cell, pixel): (usize, [u32; 2]),
     set: Set,
     groups: usize,
     samples: usize,
 ) -> Followed {
     let mut sum = Followed { samples: vec![vec![0.0; samples]; groups], ..Followed::default() };
-    for path in 0..PATHS {
-        renderer.follow(job, pixel, path + PATHS * set as u64, &mut sum);
+    let first = (2 * cell as u64 + set as u64) * PATHS;
+    for path in first..first + PATHS {
+        renderer.follow(job, pixel, path, &mut sum);
     }
     sum.samples.iter_mut().flatten().for_each(|v| *v /= PATHS as f32);
     sum
 }
 
-/// What the pixels of a set show at every nm.
-fn probe(scene: &Arc<Scene>, settings: &Settings, set: Set) -> Option<Vec<Probe>> {
-    let range = seen(scene.range)?;
+/// What the pixels of a set show at every nm, for the kinds of lamps in `known`.
+fn probe(scene: &Arc<Scene>, settings: &Settings, known: &Products, set: Set) -> Option<Vec<Probe>> {
     let basis = OneNanometre::new(scene.range);
-    let lamps = scene.lamps.len();
-    let groups: Vec<usize> = (0..lamps).collect();
-    let renderer = renderer(scene, &basis, settings.depth, &groups, Light::Unit).ok()?;
-    let job = job(scene, settings, groups);
+    let kinds: Vec<usize> = known.representatives().collect();
+    // A lamp of a kind gives its representative's light times the ratio of their luminances; a dark one gives none.
+    let kind_of = |lamp: usize| known.kind(lamp).and_then(|kind| kinds.iter().position(|&k| k == kind));
+    let luminance = |lamp: usize| known.xyz_of_lamp(lamp)[1];
+    let lamps = 0..scene.lamps.len();
+    let light: Vec<f32> = lamps
+        .clone()
+        .map(|l| known.kind(l).map_or(0.0, |kind| (luminance(l) / luminance(kind)) as f32))
+        .collect();
+    let group_of: Vec<usize> = lamps.map(|l| kind_of(l).unwrap_or(0)).collect();
+    let renderer = renderer(scene, &basis, settings.depth, &kinds, Light::Flat(&light)).ok()?;
+    let job = job(scene, settings, group_of);
+    let range = known.range;
     let first = (range.min_nm - scene.range.min_nm) as usize;
-    let weights: Vec<[Vec<f64>; 3]> = scene.lamps.iter().map(|lamp| weights(&lamp.spectrum, range)).collect();
-    let probes = pixels(scene, set).into_par_iter().map(|pixel| {
-        let found = follow(&*renderer, &job, pixel, set, lamps, basis.len());
+    let weights: Vec<_> = kinds.iter().map(|&kind| known.weights_of_lamp(kind)).collect();
+    let probes = pixels(scene, set).into_par_iter().enumerate().map(|(cell, pixel)| {
+        let found = follow(&*renderer, &job, (cell, pixel), set, kinds.len(), basis.len());
         let parts = found.samples.iter().zip(&weights).map(|(samples, weights)| {
             let filter: Vec<f64> =
                 samples[first..first + range.len()].iter().map(|v| f64::from(*v)).collect();
             let xyz = weights.each_ref().map(|row| row.iter().zip(&filter).map(|(w, f)| w * f).sum());
             (filter, xyz)
         });
-        Probe { pixel, parts: parts.collect(), material: found.material, emits: found.emits }
+        Probe { pixel, cell, parts: parts.collect(), material: found.material, emits: found.emits }
     });
     // A path that is no radiance is no product either.
     Some(probes.filter(|p: &Probe| p.xyz().iter().all(|v| v.is_finite() && *v >= 0.0)).collect())
-}
-
-/// K_m x̄ L and its likes at each nm.
-fn weights(lamp: &Curve, range: SpectralRange) -> [Vec<f64>; 3] {
-    let observer = Observer::cie_1931_2deg();
-    observer
-        .matching
-        .each_ref()
-        .map(|m| range.wavelengths().map(|w| LUMINOUS_EFFICACY * m.at(w) * lamp.at(w)).collect())
 }
 
 /// XYZ of the white beside which the scene is seen: D65 of the luminance that a PNG maps to 1; `None` in the dark.
@@ -146,17 +150,36 @@ fn white(probes: &[Probe]) -> Option<Triple> {
     (luminance > 0.0).then(|| d65.map(|v| v * luminance))
 }
 
+/// The lamps of a scene, with no product yet; `None` where the observer sees nothing of the range.
+fn known(scene: &Scene) -> Option<Products> {
+    Products::new(scene.range, scene.lamps.iter().map(|lamp| lamp.spectrum.clone()).collect())
+}
+
+/// The reflectances of what stands in the scene: each once, and none that changes no colour.
+fn reflectances(scene: &Scene) -> Vec<Curve> {
+    let used: BTreeSet<usize> = scene.objects.iter().map(|object| object.material).collect();
+    let mut found: Vec<Curve> = Vec::new();
+    for material in used {
+        let curve = scene.materials[material].representative_reflectance(scene.range);
+        let (low, high) = curve.extent(scene.range);
+        if high > low && !found.contains(&curve) {
+            found.push(curve);
+        }
+    }
+    found
+}
+
 /// The products of a scene: what its pixels show, and with little weight those of its materials as such, one and two
 /// reflections under each lamp. `None` where the observer sees nothing of the range.
 #[must_use]
 pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
-    let lamps: Vec<Curve> = scene.lamps.iter().map(|lamp| lamp.spectrum.clone()).collect();
-    let mut products =
-        Products::of_reflectances(scene.range, lamps, &scene.reflectances(), 2, MOST_STAND_INS, SEED);
+    let mut products = known(scene)?;
+    products.add_reflectances(&reflectances(scene), 2, MOST_STAND_INS, SEED);
     products.unknown = UNKNOWN;
     products.one_map = settings.layers.contains(&Layer::Spectra);
-    let probes = probe(scene, settings, Set::Fitting)?;
+    let probes = probe(scene, settings, &products, Set::Fitting)?;
     let Some(white) = white(&probes) else { return Some(products) };
+    let kinds: Vec<usize> = products.representatives().collect();
     let stand_ins = products.items.len();
     for probe in &probes {
         let total = probe.xyz()[1];
@@ -164,8 +187,8 @@ pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
             continue;
         }
         let counts = |xyz: &Triple| xyz[1] > NEGLIGIBLE * total;
-        let parts = probe.parts.iter().enumerate().filter(|(_, (_, xyz))| counts(xyz));
-        let parts = parts.map(|(lamp, (filter, _))| Part { lamp, filter: filter.clone() }).collect();
+        let parts = kinds.iter().zip(&probe.parts).filter(|(_, (_, xyz))| counts(xyz));
+        let parts = parts.map(|(&lamp, (filter, _))| Part { lamp, filter: filter.clone() }).collect();
         products.items.push(Product { parts, white, weight: 1.0, factors: None });
     }
     let shown = products.items.len() - stand_ins;
@@ -187,14 +210,17 @@ fn comparisons(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Op
     if basis.len() == scene.range.len() {
         return None; // the reference itself
     }
-    let probes = probe(scene, settings, Set::Judging)?;
+    let known = known(scene)?;
+    let kinds: Vec<usize> = known.representatives().collect();
+    let probes = probe(scene, settings, &known, Set::Judging)?;
     let white = white(&probes)?;
     let (groups, group_of) = group_lamps(basis, scene.lamps.len(), false);
     let renderer = renderer(scene, basis, settings.depth, &groups, Light::Lamps).ok()?;
     let job = job(scene, settings, group_of);
     let maps: Vec<_> = groups.iter().map(|&lamp| basis.to_xyz(lamp)).collect();
     let of = |probe: &Probe| {
-        let found = follow(&*renderer, &job, probe.pixel, Set::Judging, groups.len(), basis.len());
+        let found =
+            follow(&*renderer, &job, (probe.cell, probe.pixel), Set::Judging, groups.len(), basis.len());
         let mut sampled = [0.0; 3];
         for (samples, map) in found.samples.iter().zip(&maps) {
             for (sum, row) in sampled.iter_mut().zip(map) {
@@ -208,7 +234,7 @@ fn comparisons(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Op
             sampled,
             white,
             weight: 1.0,
-            lamp: brightest.map_or(0, |(lamp, _)| lamp),
+            lamp: brightest.map_or(0, |(kind, _)| kinds[kind]),
             materials: probe.material.into_iter().collect(),
         }
     };

@@ -2,7 +2,7 @@
 
 use illuminant_color::{Lab, delta_e_2000};
 use illuminant_illumination::Surface;
-use illuminant_sampling::{Basis, Role};
+use illuminant_sampling::{Basis, Role, white_of};
 use illuminant_scene::Scene;
 use illuminant_spectrum::Observer;
 
@@ -19,7 +19,8 @@ pub(crate) fn warnings(scene: &Scene, basis: &dyn Basis, sampling: &str) -> Vec<
         }
         let light = basis.reduce(&data.spectrum, Role::Emission);
         let sampled = basis.to_xyz(lamp).map(|row| row.iter().zip(&light).map(|(w, l)| w * l).sum());
-        let off = delta_e_2000(Lab::from_xyz(exact, exact), Lab::from_xyz(sampled, exact));
+        let white = white_of(exact);
+        let off = delta_e_2000(Lab::from_xyz(exact, white), Lab::from_xyz(sampled, white));
         if off > VISIBLE {
             found.push(format!(
                 "lamp {:?} has a spectrum too fine for {sampling} (its white is off by ΔE00 {off:.1}); use fitted:8 or 1nm",
@@ -41,6 +42,12 @@ pub(crate) fn warnings(scene: &Scene, basis: &dyn Basis, sampling: &str) -> Vec<
         if kinds.clone().any(|s| matches!(s, Surface::Dielectric { dispersion: true, .. })) {
             found.push(format!("{sampling} has no wavelengths to disperse: every prism is colourless"));
         }
+    }
+    if scene.lamps.iter().all(|l| Observer::cie_1931_2deg().luminance(&l.spectrum, scene.range) <= 0.0) {
+        found.push(format!(
+            "the observer sees nothing of the light over {}–{} nm: the image is black, whatever its spectra hold",
+            scene.range.min_nm, scene.range.max_nm
+        ));
     }
     if !scene.sees_anything() {
         found.push("the camera sees nothing: no object lies in its view, and there is no environment".into());

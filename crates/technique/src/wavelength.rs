@@ -5,7 +5,6 @@
 //! are [`COUNT`] quantiles of p, finer than the 1 nm to which spectra are tabulated wherever the eye sees much; a pixel
 //! goes through them by a stride near the golden section, so that any run of its samples is spread over the spectrum.
 
-use illuminant_illumination::Surface;
 use illuminant_sampling::{Basis, Role, ToXyz};
 use illuminant_scene::Scene;
 use illuminant_spectrum::{Curve, LUMINOUS_EFFICACY, Observer, SpectralRange};
@@ -37,13 +36,7 @@ impl Wavelength {
 /// The wavelengths for a scene; `None` where nothing disperses, or the samples are all wavelengths already or none.
 pub(crate) fn wavelengths(scene: &Scene, basis: &dyn Basis) -> Option<Vec<Wavelength>> {
     let range = scene.range;
-    let disperses = scene.materials.iter().any(|material| match &material.surface {
-        Surface::Dielectric { n, dispersion: true, .. } => {
-            let (low, high) = n.extent(range);
-            high > low
-        }
-        _ => false,
-    });
+    let disperses = scene.objects.iter().any(|object| scene.materials[object.material].disperses(range));
     (disperses && basis.is_spectral() && basis.len() < range.len()).then(|| {
         let lamps: Vec<&Curve> = scene.lamps.iter().map(|lamp| &lamp.spectrum).collect();
         quantiles(&density(&lamps, range), range)

@@ -77,7 +77,9 @@ def closing(facts: dict[str, Any]) -> str:
         size(facts["peak_memory"]),
     ]
     error = facts.get("spectral_error")
-    if error:
+    if error and not error["judged"]:
+        parts.append("spectral ΔE00 not judged: no light but dispersed light")
+    elif error:
         mean, largest = (value if value >= 0.001 else 0.0 for value in (error["mean"], error["max"]))
         parts.append(f"spectral ΔE00 {mean:.2g} (max {largest:.2g})")
     parts.append(f"{facts['dropped']} dropped")

@@ -28,6 +28,7 @@ def error(
 
     A few paths are followed through the scene at every nm and in the sampling; a fit has seen other paths. Mean, 95th
     percentile and maximum are over pixels, and the worst is named by its lamp and by the material that the camera sees.
+    Light that a prism has dispersed has wavelengths of its own, and is left out.
 
     \b
     Example:
@@ -53,6 +54,11 @@ def error(
     width = max(len(row["sampling"]) for row in rows)
     typer.echo(f"{'':{width}}   mean    p95    max  worst")
     for row in rows:
+        if not row["judged"]:
+            typer.echo(
+                f"{row['sampling']:<{width}}  nothing to judge: the image has no light but dispersed light"
+            )
+            continue
         worst = f"{row['material'] or 'surroundings'} under {row['lamp']}" if row["max"] > 0 else "none"
         typer.echo(
             f"{row['sampling']:<{width}} {row['mean']:6.3f} {row['p95']:6.3f} {row['max']:6.3f}  {worst}"
