@@ -18,6 +18,8 @@ NAMES = [
     "demo",
     "environment",
     "metamers",
+    "prism",
+    "two-filters",
 ]
 
 

@@ -72,8 +72,10 @@ _STYLE: dict[str, Any] = {
 def styled() -> Iterator[None]:
     """The style of our plots, whatever the settings of the user; both drawing and writing happen inside of it."""
     import matplotlib
+    import numpy as np
 
-    with matplotlib.rc_context():
+    # The identifiers of an SVG are made from printed numbers, and a package may have changed how NumPy prints them.
+    with np.printoptions(legacy=False), matplotlib.rc_context():
         matplotlib.rcdefaults()
         parameters: Any = matplotlib.rcParams
         parameters.update(_STYLE)
