@@ -7,7 +7,8 @@ Every sampling follows the same paths for the same seed (decisions look at brigh
 per sample are the same and what differs is arithmetic on lanes. Each sampling is a warm process of its own; runs
 are short and alternate, A B C D A B C D, so that other work on the machine falls on all. In each round the time
 of each is divided by that of the first, and the median of those ratios is the price; the quartiles beside it say
-how sure it is.
+how sure it is. The same by processor time of the whole call varies less where other work shares the machine; for
+`fitted:N` it holds the fit as well.
 
 Time is that of taking samples: no scene, no ray structure. What a sampling needs before the first sample, such
 as the fit of `fitted:N`, has a column of its own: the whole call of `illuminant.render` less its samples.
@@ -71,23 +72,32 @@ def _report(rounds: list[dict[str, dict[str, Any]]], options: argparse.Namespace
         f"{options.threads} threads, {options.runs} rounds"
     )
     print(
-        f"{'sampling':14}{'ns/sample':>10}{f'to {first}':>14}{'quartiles':>13}{'rays/sample':>13}{'before, s':>11}"
+        f"{'sampling':14}{'ns/sample':>10}{f'to {first}':>14}{'quartiles':>13}{'CPU time to it':>16}{'quartiles':>13}"
+        f"{'rays/sample':>13}{'before, s':>11}"
     )
     for sampling in options.sampling:
-        answers = [answers[sampling] for answers in rounds]
-        seconds = [answer["core"]["seconds"] for answer in answers]
-        per_sample = statistics.median(
-            taken / answer["core"]["samples"] * 1e9 for taken, answer in zip(seconds, answers, strict=True)
-        )
-        ratios = [
-            taken / answers[first]["core"]["seconds"] for taken, answers in zip(seconds, rounds, strict=True)
+        own = [answers[sampling] for answers in rounds]
+        per_sample = statistics.median(_seconds(answer) / answer["core"]["samples"] * 1e9 for answer in own)
+        wall = [_seconds(answers[sampling]) / _seconds(answers[first]) for answers in rounds]
+        processor = [
+            answers[sampling]["processor_seconds"] / answers[first]["processor_seconds"] for answers in rounds
         ]
-        low, middle, high = statistics.quantiles(ratios, n=4, method="inclusive")
-        rays = statistics.fmean(answer["core"]["rays"] / answer["core"]["samples"] for answer in answers)
-        before = statistics.median(answer["seconds"] - answer["core"]["seconds"] for answer in answers)
+        rays = statistics.fmean(answer["core"]["rays"] / answer["core"]["samples"] for answer in own)
+        before = statistics.median(answer["seconds"] - _seconds(answer) for answer in own)
         print(
-            f"{sampling:14}{per_sample:10.1f}{middle:14.3f}{f'{low:.2f}-{high:.2f}':>13}{rays:13.4f}{before:11.3f}"
+            f"{sampling:14}{per_sample:10.1f}{_median_and_quartiles(wall, 14)}{_median_and_quartiles(processor, 16)}"
+            f"{rays:13.4f}{before:11.3f}"
         )
+
+
+def _seconds(answer: dict[str, Any]) -> float:
+    """Wall time of taking samples."""
+    return float(answer["core"]["seconds"])
+
+
+def _median_and_quartiles(values: list[float], width: int) -> str:
+    low, middle, high = statistics.quantiles(values, n=4, method="inclusive")
+    return f"{middle:{width}.3f}{f'{low:.2f}-{high:.2f}':>13}"
 
 
 if __name__ == "__main__":
