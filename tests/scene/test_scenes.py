@@ -15,6 +15,7 @@ NAMES = [
     "colorchecker-d65",
     "colorchecker-fl11",
     "cornell",
+    "cornell-fl11",
     "demo",
     "environment",
     "metamers",

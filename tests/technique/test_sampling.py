@@ -65,6 +65,7 @@ SCENES = [
     "colorchecker-a.toml",
     "colorchecker-d65.toml",
     "colorchecker-fl11.toml",
+    "cornell-fl11.toml",
     "cornell.toml",
     "demo.toml",
     "environment.toml",
