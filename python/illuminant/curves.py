@@ -67,6 +67,10 @@ class Curves:
         self.directory = FilePath(directory)
         self.range_nm = (float(range_nm[0]), float(range_nm[1]))
         self.warnings: list[str] = []
+        # Where materials are made from RGB, with the error; whether any is not; and the largest error by provenance.
+        self.of_rgb: dict[str, float] = {}
+        self.of_measurement = False
+        self._round_trips: dict[str, float] = {}
 
     def resolve(self, value: Any, use: str, path: Path) -> Spectrum | None:
         """A spectrum for a use, or None after its mistakes were reported.
@@ -80,7 +84,24 @@ class Curves:
         spectrum = self._find(value, use, path, ())
         if spectrum is None or len(self.report.problems) > before:
             return None
+        if use == "reflectance" and path[0] == "materials":
+            place = ".".join(str(part) for part in path)
+            if spectrum.provenance in self._round_trips:
+                self.of_rgb[place] = self._round_trips[spectrum.provenance]
+            elif min(spectrum.values) < max(spectrum.values):
+                self.of_measurement = True
         return self._fit(spectrum, use, path)
+
+    def mixture(self) -> list[str]:
+        """A sentence where materials made from RGB stand beside measured ones (book 3.5.3); else none."""
+        if not (self.of_rgb and self.of_measurement):
+            return []
+        places = ", ".join(list(self.of_rgb)[:3]) + (" and others" if len(self.of_rgb) > 3 else "")
+        worst = max(self.of_rgb.values())
+        return [
+            f"{places}: made from RGB (ΔE00 of the round trip at most {worst:.2g}), beside measured spectra; under "
+            "another light than the white of its system such a colour is a guess"
+        ]
 
     def check_named(self) -> None:
         """Report the mistakes of every spectrum of `[spectra]`, also of those that nothing uses."""
@@ -278,6 +299,8 @@ class Curves:
         except DataError as mistake:
             self.report.add((*path, "rgb"), mistake.message, kind="spectrum")
             return None
+        known = self._round_trips.get(spectrum.provenance, 0.0)
+        self._round_trips[spectrum.provenance] = max(error, known)
         if error > WARN_DELTA_E:
             place = ".".join(str(part) for part in path)
             self.warnings.append(

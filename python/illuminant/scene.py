@@ -273,7 +273,7 @@ class Scene:
             render_defaults=self.render_defaults,
             frame=frame,
             path=self.path,
-            warnings=[*self.warnings, *resolver.curves.warnings],
+            warnings=[*self.warnings, *resolver.curves.warnings, *resolver.curves.mixture()],
         )
         result._geometry = self._geometry
         return result

@@ -219,7 +219,7 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
         render_defaults=render.model_dump(exclude_none=True) if render else {},
         frame=frame,
         path=report.file or None,
-        warnings=resolver.curves.warnings,
+        warnings=[*resolver.curves.warnings, *resolver.curves.mixture()],
     )
 
 

@@ -147,3 +147,21 @@ def test_warnings_are_shown_and_are_no_mistakes(scene: Path, capsys: pytest.Capt
     assert lamp.startswith('Warning: lamp "lamp" has a spectrum too fine for uniform:32')
     assert run(["render", str(scene), "--samples", "1", "-o", str(scene.with_suffix(".png"))]) == 0
     assert capsys.readouterr().err.splitlines()[:2] == [own, lamp]
+
+
+def test_rgb_beside_measured_spectra_is_said_to_mislead(
+    scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Book 3.5.3. Alone, or beside a grey, RGB misleads nobody."""
+    rgb = '{ rgb = [0.5, 0.2, 0.1], role = "albedo" }'
+    text = scene.read_text().replace("reflectance = 0.5", f"reflectance = {rgb}")
+    scene.write_text(text)
+    assert run(["check", str(scene)]) == 0
+    assert capsys.readouterr().err == ""
+    scene.write_text(text + '\n[materials.paint]\nkind = "diffuse"\nreflectance = "ColorChecker/red"\n')
+    assert run(["check", str(scene)]) == 0
+    err = capsys.readouterr().err
+    assert err.startswith(
+        "Warning: materials.grey.reflectance: made from RGB (ΔE00 of the round trip at most 0.00"
+    )
+    assert "a guess" in err and len(err.splitlines()) == 1
