@@ -28,8 +28,10 @@ const SEED: u64 = 0x5eed;
 const STAND_IN: f64 = 0.1;
 /// What materials that are not in the scene weigh: little, for a scene says what it is made of.
 const UNKNOWN: f64 = 0.02;
-/// The most products of materials as such.
+/// The most products of materials as such, over all lamps.
 const MOST_STAND_INS: usize = 400;
+/// The most products of pixels that are fitted, each counted once for every lamp: with many lamps not all are needed.
+const MOST_FITTED: usize = 1200;
 /// A lamp that gives less than this fraction of a pixel's light is left out of its product.
 const NEGLIGIBLE: f64 = 1e-3;
 /// Where the white of the scene lies: this percentile of luminance is shown as this fraction of white, as in PNGs.
@@ -174,14 +176,15 @@ fn reflectances(scene: &Scene) -> Vec<Curve> {
 #[must_use]
 pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
     let mut products = known(scene)?;
-    products.add_reflectances(&reflectances(scene), 2, MOST_STAND_INS, SEED);
+    let kinds: Vec<usize> = products.representatives().collect();
+    products.add_reflectances(&reflectances(scene), 2, MOST_STAND_INS / kinds.len().max(1), SEED);
     products.unknown = UNKNOWN;
     products.one_map = settings.layers.contains(&Layer::Spectra);
     let probes = probe(scene, settings, &products, Set::Fitting)?;
     let Some(white) = white(&probes) else { return Some(products) };
-    let kinds: Vec<usize> = products.representatives().collect();
     let stand_ins = products.items.len();
-    for probe in &probes {
+    let stride = (probes.len() * kinds.len()).div_ceil(MOST_FITTED).max(1);
+    for probe in probes.iter().step_by(stride) {
         let total = probe.xyz()[1];
         if total <= 0.0 {
             continue;
