@@ -127,11 +127,9 @@ impl SpectralWeights {
         for weight in rows.iter_mut().flatten() {
             *weight *= factor;
         }
-        // The last group is filled up with weights of 0.
-        let weight = |c: usize, band: usize| rows[c].get(band).copied().unwrap_or(0.0);
-        let vector = |c: usize, from: usize| std::array::from_fn(|lane| weight(c, from + lane));
+        let vector = |c: usize, from: usize| std::array::from_fn(|lane| rows[c][from + lane]);
         let group = |g: usize| [0, 1].map(|half| [0, 1, 2].map(|c| vector(c, g * GROUP + half * LANES)));
-        let groups = (0..bands_nm.len().div_ceil(GROUP)).map(group).collect();
+        let groups = (0..bands_nm.len() / GROUP).map(group).collect();
         Ok(Self { rows, groups })
     }
 
@@ -167,35 +165,31 @@ impl SpectralWeights {
     /// places at once, and the memory is several times slower at that.
     fn run<T: Real>(&self, spectra: &[T], xyz: &mut [T]) {
         let n = self.bands();
+        let whole = n / GROUP * GROUP;
+        let rows = self.rows.each_ref().map(|row| &row[whole..]);
         for (spectrum, xyz) in spectra.chunks_exact(n).zip(xyz.chunks_exact_mut(3)) {
+            let (groups, rest) = spectrum.split_at(whole);
             let mut sums = [[[0.0; LANES]; 3]; 2];
-            add(&mut sums, spectrum, &self.groups);
-            let rest = spectrum.chunks_exact(GROUP).remainder();
-            if let (Some(weights), false) = (self.groups.last(), rest.is_empty()) {
-                let mut filled = [T::default(); GROUP];
-                for (slot, value) in filled.iter_mut().zip(rest) {
-                    *slot = *value;
+            add(&mut sums, groups, &self.groups);
+            let [first, second] = &sums;
+            for c in 0..3 {
+                let (a, b) = (&first[c], &second[c]);
+                let mut total = ((a[0] + b[0]) + (a[2] + b[2])) + ((a[1] + b[1]) + (a[3] + b[3]));
+                for (value, weight) in rest.iter().zip(rows[c]) {
+                    total = value.f64().mul_add(*weight, total);
                 }
-                add(&mut sums, &filled, std::slice::from_ref(weights));
+                xyz[c] = T::of(total);
             }
-            let [[x, y, z], second] = sums;
-            let total = |first: [f64; LANES], second: [f64; LANES]| {
-                ((first[0] + second[0]) + (first[2] + second[2]))
-                    + ((first[1] + second[1]) + (first[3] + second[3]))
-            };
-            xyz[0] = T::of(total(x, second[0]));
-            xyz[1] = T::of(total(y, second[1]));
-            xyz[2] = T::of(total(z, second[2]));
         }
     }
 }
 
-/// Adds the products of whole groups of bands to their sums: one for each half of a group, each of X, Y and Z, and lane.
+/// The sums of the products of whole groups of bands: one for each half of a group, each of X, Y and Z, and lane.
 ///
 /// Never inlined: beside the code that adds the lanes up, the compiler would choose vectors across them.
 #[inline(never)]
 fn add<T: Real>(sums: &mut [[[f64; LANES]; 3]; 2], bands: &[T], groups: &[[[[f64; LANES]; 3]; 2]]) {
-    let mut partial = *sums;
+    let mut partial = [[[0.0; LANES]; 3]; 2];
     for (bands, weights) in bands.chunks_exact(GROUP).zip(groups) {
         for (half, (sums, weights)) in partial.iter_mut().zip(weights).enumerate() {
             let bands = &bands[half * LANES..(half + 1) * LANES];
