@@ -20,7 +20,7 @@ def small(scene, longest):
     return scene.replace(camera={"size": [max(1, round(side * longest / max(size))) for side in size]})
 
 
-# --- two filters over a white base (book figures 3.12 and 3.13) ---------------------------------------------------------
+# --- two filters over a white base (book figures 3.12 and 3.13) ---
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +58,7 @@ def test_four_samples_of_meyer_miss_cut_offs(overlap):
     assert overlap("meyer")[0] < 1e-3
 
 
-# --- the error that is reported ----------------------------------------------------------------------------------------
+# --- the error that is reported ---
 
 SCENES = [
     "bunny.toml",
@@ -130,7 +130,7 @@ def test_kept_spectra_and_their_matrix_are_the_image(scenes, name):
     assert again == pytest.approx(image.xyz, rel=1e-5, abs=1e-5 * image.xyz.max())
 
 
-# --- a prism -------------------------------------------------------------------------------------------------------------
+# --- a prism ---
 
 
 def through_the_prism(scene, n, offsets):
