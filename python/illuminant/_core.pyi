@@ -242,13 +242,13 @@ def upsample_emission(
 def sampling_names() -> list[tuple[str, str]]:
     """Every form of the name of a spectral sampling, with what it means."""
 
-_Curve: TypeAlias = tuple[Sequence[float], Sequence[float], str]
+_Points: TypeAlias = tuple[Sequence[float], Sequence[float], str]
 
 def sampling_error(
     sampling: str,
-    lamps: Sequence[_Curve],
-    fitted_on: Sequence[_Curve],
-    judged_on: Sequence[_Curve],
+    lamps: Sequence[_Points],
+    fitted_on: Sequence[_Points],
+    judged_on: Sequence[_Points],
     depth: int,
     most_fitted: int,
     most_judged: int,
