@@ -242,13 +242,11 @@ def upsample_emission(
 def sampling_names() -> list[tuple[str, str]]:
     """Every form of the name of a spectral sampling, with what it means."""
 
-_Points: TypeAlias = tuple[Sequence[float], Sequence[float], str]
-
 def sampling_error(
     sampling: str,
-    lamps: Sequence[_Points],
-    fitted_on: Sequence[_Points],
-    judged_on: Sequence[_Points],
+    lamps: Sequence[_Curve],
+    fitted_on: Sequence[_Curve],
+    judged_on: Sequence[_Curve],
     depth: int,
     most_fitted: int,
     most_judged: int,
