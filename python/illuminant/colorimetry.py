@@ -289,7 +289,7 @@ def rendering_index(lamp: Spectrum | str, *, step_nm: int = 1) -> RenderingIndex
     spectrum = load(lamp) if isinstance(lamp, str) else lamp
     if isinstance(step_nm, bool) or not isinstance(step_nm, int) or not 1 <= step_nm <= 10:
         raise UsageError(f"The step is a whole number of nm from 1 to 10, not {step_nm!r}.")
-    found = _asked(core().rendering_index, *_given(spectrum, WIDE_NM), step_nm)
+    found = _asked(core().rendering_index, *spectrum.given(WIDE_NM), step_nm)
     general, special, cct_k, duv, distance = found
     reference = "blackbody" if cct_k < 5000.0 else "daylight"
     return RenderingIndex(general, tuple(special), cct_k, duv, reference, distance)
@@ -325,8 +325,8 @@ def fidelity_index(
         raise UsageError(f"The step is a whole number of nm from 1 to 5, not {step_nm!r}.")
     light = load(lamp) if isinstance(lamp, str) else lamp
     surfaces = [load(sample) if isinstance(sample, str) else sample for sample in samples]
-    given = [_given(surface, RANGE_NM) for surface in surfaces]
-    general, special, cct_k, duv = _asked(core().fidelity_index, _given(light, RANGE_NM), given, step_nm)
+    given = [surface.given(RANGE_NM) for surface in surfaces]
+    general, special, cct_k, duv = _asked(core().fidelity_index, light.given(RANGE_NM), given, step_nm)
     return FidelityIndex(general, tuple(special), cct_k, duv)
 
 
@@ -373,7 +373,7 @@ def metamer(
     surface = load(reflectance) if isinstance(reflectance, str) else reflectance
     light = load(lamp) if isinstance(lamp, str) else lamp
     (wavelengths, values), found, largest = _asked(
-        core().metamer, _given(surface, span), _given(light, span), name, span, seed, distance
+        core().metamer, surface.given(span), light.given(span), name, span, seed, distance
     )
     origin = f"metamer of {surface.name} under {light.name} for {name}, seed {seed} (Cohen and Kappauf 1982)"
     spectrum = Spectrum(
@@ -419,7 +419,7 @@ def fundamental(
     name, span = _observer(observer), whole_range(range_nm)
     surface = load(reflectance) if isinstance(reflectance, str) else reflectance
     light = load(lamp) if isinstance(lamp, str) else lamp
-    _, values = _asked(core().fundamental, _given(surface, span), _given(light, span), name, span)
+    _, values = _asked(core().fundamental, surface.given(span), light.given(span), name, span)
     found: NDArray[np.float64] = values
     return found
 
@@ -430,18 +430,6 @@ def _span(spectrum: Spectrum) -> tuple[int, int]:
         return WIDE_NM
     first, last = spectrum.range_nm
     return max(WIDE_NM[0], -int(-first // 1)), min(WIDE_NM[1], int(last))
-
-
-def _given(spectrum: Spectrum, span: Sequence[int]) -> tuple[tuple[float, ...], tuple[float, ...], str]:
-    """Points and rule for the core; a spectrum that is an error outside must cover the range."""
-    first, last = spectrum.range_nm
-    if spectrum.outside == "error" and not first <= span[0] <= span[1] <= last:
-        raise DataError(
-            f"spectrum {spectrum.name!r} is known from {first:g} to {last:g} nm only, and {span[0]} to {span[1]} nm "
-            "are needed"
-        )
-    rule = "hold" if spectrum.outside == "error" else spectrum.outside
-    return spectrum.wavelengths_nm, spectrum.values, rule
 
 
 def _observer(name: str) -> str:

@@ -161,9 +161,9 @@ def compare(
             try:
                 found = core().sampling_error(
                     sampling,
-                    [_curve(lamp) for lamp in group],
-                    [_curve(spectrum) for spectrum in known],
-                    [_curve(spectrum) for spectrum in judged],
+                    [lamp.given(range_nm) for lamp in group],
+                    [spectrum.given(range_nm) for spectrum in known],
+                    [spectrum.given(range_nm) for spectrum in judged],
                     depth,
                     FITTED_ON,
                     MOST_JUDGED if products is None else products,
@@ -203,8 +203,3 @@ def _reflectances(values: Sequence[str | Spectrum] | str) -> list[Spectrum]:
             "There is no reflectance to multiply; expected a group such as ColorChecker, or names."
         )
     return found
-
-
-def _curve(spectrum: Spectrum) -> tuple[tuple[float, ...], tuple[float, ...], str]:
-    outside = "hold" if spectrum.outside == "error" else spectrum.outside
-    return spectrum.wavelengths_nm, spectrum.values, outside

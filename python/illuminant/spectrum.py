@@ -204,7 +204,7 @@ class Spectrum:
             if first >= last:
                 raise UsageError(f"Spectrum {self.name!r} covers no two whole nm; give a range_nm.")
             range_nm = (first, last)
-        return float(_asked(core().curve_area, self._given(range_nm), whole_range(range_nm)))
+        return float(_asked(core().curve_area, self.given(range_nm), whole_range(range_nm)))
 
     def normalised(self, wavelength_nm: float = 560.0, value: float = 1.0) -> Spectrum:
         """The spectrum times the factor that makes it `value` at a wavelength; the book's lamps are 1 at 560 nm.
@@ -222,7 +222,7 @@ class Spectrum:
         """
         quantity: Quantity = "emission" if self.quantity == "emission" else ""
         unit = "relative" if quantity else "1"
-        given = self._given((wavelength_nm, wavelength_nm))
+        given = self.given((wavelength_nm, wavelength_nm))
         made = _asked(core().curve_normalised, given, float(wavelength_nm), float(value))
         return self._made(made, self.name, unit, quantity, self.outside)
 
@@ -235,7 +235,7 @@ class Spectrum:
             >>> Spectrum("ramp", [400, 700], [0.0, 0.6]).between(500, 800).wavelengths_nm
             (500.0, 700.0, 800.0)
         """
-        made = _asked(core().curve_between, self._given((first_nm, last_nm)), float(first_nm), float(last_nm))
+        made = _asked(core().curve_between, self.given((first_nm, last_nm)), float(first_nm), float(last_nm))
         return self._made(made, self.name, self.unit, self.quantity, self.outside)
 
     def resampled(
@@ -271,7 +271,7 @@ class Spectrum:
                 raise UsageError(f"There is no {said!r}: expected {one_of(word for word in known if word)}.")
         wanted = list(floats(wavelengths_nm, "wavelengths_nm"))
         beyond = extrapolation or self.outside
-        made = _asked(core().curve_resampled, self._given(), wanted, interpolation, beyond)
+        made = _asked(core().curve_resampled, self.given(), wanted, interpolation, beyond)
         return self._made(made, self.name, self.unit, self.quantity, self.outside)
 
     def pseudo_color(
@@ -295,7 +295,7 @@ class Spectrum:
         band, visible = (list(floats(pair, "band")) for pair in (band_nm, visible_nm))
         if len(band) != 2 or len(visible) != 2:
             raise UsageError("A band is two wavelengths, the first and the last.")
-        made = _asked(core().curve_pseudo_color, self._given(), band, visible)
+        made = _asked(core().curve_pseudo_color, self.given(), band, visible)
         return self._made(made, self.name, self.unit, self.quantity, self.outside)
 
     def xyz(
@@ -328,22 +328,36 @@ class Spectrum:
         if lamp is None:
             if self.quantity == "reflectance":
                 raise UsageError(f"A reflectance has a colour under a lamp only: give {self.name!r} a lamp.")
-            found: NDArray[np.float64] = _asked(core().xyz, *self._given(span), span, observer)
+            found: NDArray[np.float64] = _asked(core().xyz, *self.given(span), span, observer)
             return found
-        seen = _asked(core().curve_product, self._given(span), lamp._given(span))
-        white = _asked(core().xyz, *lamp._given(span), span, observer)[1]
+        seen = _asked(core().curve_product, self.given(span), lamp.given(span))
+        white = _asked(core().xyz, *lamp.given(span), span, observer)[1]
         if not white > 0.0:
             raise DataError(f"spectrum {lamp.name!r} gives no light from {span[0]} to {span[1]} nm")
         product: NDArray[np.float64] = _asked(core().xyz, *seen, span, observer) / white
         return product
 
-    def _given(self, needed_nm: Sequence[float] | None = None) -> Given:
-        """What the core takes; a spectrum that is an error outside must be known where it is needed."""
+    def given(self, needed_nm: Sequence[float] | None = None) -> Given:
+        """Points and rule as the core takes them.
+
+        Args:
+            needed_nm: first and last wavelength that are asked for; None for no more than there are.
+
+        Raises:
+            DataError: the spectrum is an error outside its range, and more is needed.
+
+        Example:
+            >>> Spectrum("ramp", [400, 700], [0.0, 0.6]).given()
+            ((400.0, 700.0), (0.0, 0.6), 'hold')
+        """
         if self.outside != "error":
             return self.wavelengths_nm, self.values, self.outside
         first, last = self.range_nm
         if needed_nm is not None and not first <= needed_nm[0] <= needed_nm[1] <= last:
-            raise DataError(f"spectrum {self.name!r} is known from {first:g} to {last:g} nm only")
+            raise DataError(
+                f"spectrum {self.name!r} is known from {first:g} to {last:g} nm only, and {needed_nm[0]:g} to "
+                f"{needed_nm[1]:g} nm are needed"
+            )
         return self.wavelengths_nm, self.values, "hold"
 
     def _made(
@@ -388,7 +402,7 @@ class Spectrum:
         self, other: Spectrum, operation: str, name: str, unit: str, quantity: Quantity
     ) -> Spectrum:
         known = [spectrum.range_nm for spectrum in (self, other) if spectrum.outside == "error"]
-        made = _asked(getattr(core(), operation), self._given(), other._given())
+        made = _asked(getattr(core(), operation), self.given(), other.given())
         origins = "; ".join(dict.fromkeys(filter(None, (self.provenance, other.provenance))))
         result = replace(self._made(made, name, unit, quantity), provenance=origins)
         if not known:

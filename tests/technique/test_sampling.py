@@ -122,6 +122,33 @@ def test_the_wavelengths_depend_on_the_scene_alone(scenes):
     assert len(first) == 8
 
 
+@pytest.mark.parametrize("sampling", ["fitted:8", "hall:9", "uniform:8", "1nm"])
+@pytest.mark.parametrize("lit", [False, True], ids=["alone", "beside daylight"])
+def test_a_lamp_that_nobody_sees_is_rendered_and_said(sampling, lit):
+    """Infrared light alone is black at 1 nm; a coarser sampling draws lines from it into the visible."""
+    infrared = {"wavelengths_nm": [840.0, 900.0, 950.0], "values": [0.0, 1.0, 0.0], "outside": "zero"}
+    lights = {"heat": {"kind": "environment", "spectrum": infrared, "radiance_scale": 1.0}}
+    if lit:
+        lights["day"] = {"kind": "environment", "spectrum": "D65", "luminance_cd_m2": 100.0}
+    scene = Scene.build(
+        camera={"eye": [0, 1, 3], "target": [0, 0, 0], "size": [16, 12]},
+        objects={"ball": {"sphere": {"radius": 1.0}, "material": "paint"}},
+        materials={"paint": {"kind": "diffuse", "reflectance": "ColorChecker/red"}},
+        lights=lights,
+        range_nm=[380, 1000],
+    )
+    job = Job(scene, samples=4, sampling=sampling)
+    assert any("the observer sees nothing" in text for text in job.warnings()) is not lit
+    error = job.spectral_error()
+    assert (error["judged"] > 0) == (lit and sampling != "1nm")
+    luminance = illuminant.render(scene, samples=4, sampling=sampling).xyz[..., 1]
+    assert np.isfinite(luminance).all()
+    if lit:
+        assert luminance.max() > 50
+    elif sampling == "1nm":
+        assert not luminance.any()
+
+
 @pytest.mark.parametrize("name", ["metamers.toml", "colorchecker-fl11.toml"])
 def test_kept_spectra_and_their_matrix_are_the_image(scenes, name):
     """Also with two lamps of different spectra, whose light is kept together."""

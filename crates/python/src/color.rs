@@ -287,7 +287,7 @@ impl PySpectralWeights {
     fn new(
         bands_nm: Vec<f64>,
         observer: (Vec<f64>, PyReadonlyArray2<'_, f64>),
-        illuminant: Option<(Vec<f64>, Vec<f64>, String)>,
+        illuminant: Option<crate::spectrum::Given>,
         range_nm: [f64; 2],
         outside: &str,
         interpolation: &str,

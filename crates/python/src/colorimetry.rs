@@ -1,6 +1,6 @@
 //! `colorimetry`: what a lamp's light is like, and metamers.
 
-use crate::spectrum::{curve, observer};
+use crate::spectrum::{Given, curve, given, observer};
 use illuminant_spectrum::{Curve, SpectralRange};
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
@@ -46,14 +46,9 @@ fn rendering_index(
 }
 
 #[pyfunction]
-fn fidelity_index(
-    lamp: (Vec<f64>, Vec<f64>, String),
-    samples: Vec<(Vec<f64>, Vec<f64>, String)>,
-    step_nm: u32,
-) -> PyResult<(f64, Vec<f64>, f64, f64)> {
-    let of = |(w, v, outside): (Vec<f64>, Vec<f64>, String)| curve(w, v, &outside);
-    let samples = samples.into_iter().map(of).collect::<PyResult<Vec<_>>>()?;
-    let found = illuminant_color::fidelity_index(&of(lamp)?, &samples, step_nm);
+fn fidelity_index(lamp: Given, samples: Vec<Given>, step_nm: u32) -> PyResult<(f64, Vec<f64>, f64, f64)> {
+    let samples = samples.into_iter().map(given).collect::<PyResult<Vec<_>>>()?;
+    let found = illuminant_color::fidelity_index(&given(lamp)?, &samples, step_nm);
     found.map(|f| (f.general, f.special, f.temperature.cct_k, f.temperature.duv)).map_err(mistake)
 }
 
@@ -61,15 +56,14 @@ fn fidelity_index(
 #[pyo3(signature = (reflectance, lamp, observer, range_nm, seed, distance))]
 fn metamer<'py>(
     py: Python<'py>,
-    reflectance: (Vec<f64>, Vec<f64>, String),
-    lamp: (Vec<f64>, Vec<f64>, String),
+    reflectance: Given,
+    lamp: Given,
     observer: &str,
     range_nm: [u32; 2],
     seed: u64,
     distance: Option<f64>,
 ) -> PyResult<(Points<'py>, f64, f64)> {
-    let of = |(w, v, outside): (Vec<f64>, Vec<f64>, String)| curve(w, v, &outside);
-    let (reflectance, lamp, range) = (of(reflectance)?, of(lamp)?, SpectralRange::from(range_nm));
+    let (reflectance, lamp, range) = (given(reflectance)?, given(lamp)?, SpectralRange::from(range_nm));
     let observer = self::observer(observer)?;
     let found = illuminant_color::metamer(&reflectance, &lamp, observer, range, seed, distance);
     let found = found.map_err(mistake)?;
@@ -79,13 +73,12 @@ fn metamer<'py>(
 #[pyfunction]
 fn fundamental<'py>(
     py: Python<'py>,
-    reflectance: (Vec<f64>, Vec<f64>, String),
-    lamp: (Vec<f64>, Vec<f64>, String),
+    reflectance: Given,
+    lamp: Given,
     observer: &str,
     range_nm: [u32; 2],
 ) -> PyResult<Points<'py>> {
-    let of = |(w, v, outside): (Vec<f64>, Vec<f64>, String)| curve(w, v, &outside);
-    let (reflectance, lamp, range) = (of(reflectance)?, of(lamp)?, SpectralRange::from(range_nm));
+    let (reflectance, lamp, range) = (given(reflectance)?, given(lamp)?, SpectralRange::from(range_nm));
     let observer = self::observer(observer)?;
     let found = illuminant_color::fundamental(&reflectance, &lamp, observer, range).map_err(mistake)?;
     Ok(points(py, &found))

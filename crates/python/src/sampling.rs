@@ -1,6 +1,6 @@
 //! `sampling`: the spectral samplings and what they cost in colour.
 
-use crate::spectrum::curve;
+use crate::spectrum::{Given, given};
 use illuminant_sampling::{
     Comparison, Products, SAMPLING_NAMES, SamplingError, SpectralError, SpectralSampling, compare,
 };
@@ -9,11 +9,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Wavelengths, values and the rule outside.
-type CurveData = (Vec<f64>, Vec<f64>, String);
-
-fn curves(data: Vec<CurveData>) -> PyResult<Vec<Curve>> {
-    data.into_iter().map(|(wavelengths, values, outside)| curve(wavelengths, values, &outside)).collect()
+fn curves(data: Vec<Given>) -> PyResult<Vec<Curve>> {
+    data.into_iter().map(given).collect()
 }
 
 fn error<'py>(py: Python<'py>, found: &[Comparison]) -> PyResult<Bound<'py, PyDict>> {
@@ -38,9 +35,9 @@ fn sampling_names() -> Vec<(&'static str, &'static str)> {
 fn sampling_error<'py>(
     py: Python<'py>,
     sampling: &str,
-    lamps: Vec<CurveData>,
-    fitted_on: Vec<CurveData>,
-    judged_on: Vec<CurveData>,
+    lamps: Vec<Given>,
+    fitted_on: Vec<Given>,
+    judged_on: Vec<Given>,
     depth: usize,
     most_fitted: usize,
     most_judged: usize,

@@ -82,10 +82,10 @@ fn xyz<'py>(
 }
 
 /// Points and rule of a curve.
-type Given = (Vec<f64>, Vec<f64>, String);
+pub(crate) type Given = (Vec<f64>, Vec<f64>, String);
 type Made<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, &'static str);
 
-fn given((wavelengths_nm, values, outside): Given) -> PyResult<Curve> {
+pub(crate) fn given((wavelengths_nm, values, outside): Given) -> PyResult<Curve> {
     curve(wavelengths_nm, values, &outside)
 }
 

@@ -1,5 +1,6 @@
 //! What gives lanes their meaning.
 
+use illuminant_color::Triple;
 use illuminant_spectrum::Curve;
 use std::fmt;
 
@@ -19,6 +20,17 @@ pub enum Role {
 
 /// The map from samples to absolute XYZ: three rows of one weight a sample.
 pub type ToXyz = [Vec<f64>; 3];
+
+/// The XYZ that a map makes of samples: the sum of weight times sample in each row.
+///
+/// ```
+/// let map = [vec![1.0, 0.0], vec![0.5, 0.5], vec![0.0, 2.0]];
+/// assert_eq!(illuminant_sampling::xyz_by(&map, &[2.0, 4.0]), [2.0, 3.0, 8.0]);
+/// ```
+#[must_use]
+pub fn xyz_by(map: &ToXyz, samples: &[f64]) -> Triple {
+    map.each_ref().map(|row| row.iter().zip(samples).map(|(w, v)| w * v).sum())
+}
 
 /// A spectral sampling over one range: a list of samples, split into passes of at most 32 lanes.
 ///

@@ -1,6 +1,6 @@
 //! What a spectral sampling costs in colour.
 
-use crate::{Basis, Products, Role};
+use crate::{Basis, Products, Role, xyz_by};
 use illuminant_color::{Lab, Triple, delta_e_2000};
 use rayon::prelude::*;
 
@@ -99,10 +99,9 @@ pub fn compare(basis: &dyn Basis, products: &Products) -> Vec<Comparison> {
             let (light, map, weights) = &lamps[part.lamp];
             let value = |i: usize| factors.iter().fold(light[i], |v, &m| v * fractions[m][i]);
             let lanes: Vec<f64> = (0..light.len()).map(value).collect();
-            let dot = |row: &Vec<f64>, values: &[f64]| row.iter().zip(values).map(|(w, v)| w * v).sum();
             Some(Comparison {
-                exact: weights.each_ref().map(|row| dot(row, &part.filter)),
-                sampled: map.each_ref().map(|row| dot(row, &lanes)),
+                exact: xyz_by(weights, &part.filter),
+                sampled: xyz_by(map, &lanes),
                 white: item.white,
                 weight: item.weight,
                 lamp: part.lamp,

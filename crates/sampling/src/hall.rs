@@ -1,6 +1,6 @@
 //! `hall:N`: box sampling and box reconstruction (Hall 1983; book 3.5.2 and III.8).
 
-use crate::{Basis, Products, Role, ToXyz};
+use crate::{Basis, Products, Role, ToXyz, xyz_by};
 use illuminant_color::{Lightness, LuvWhite};
 use illuminant_spectrum::{Curve, LUMINOUS_EFFICACY, Observer, SpectralRange};
 
@@ -100,12 +100,6 @@ impl Hall {
         (self, best)
     }
 
-    /// The bounds, nm.
-    #[must_use]
-    pub fn bounds_nm(&self) -> &[f64] {
-        &self.bounds_nm
-    }
-
     /// The box into which a wavelength falls when curves are built again: the first and last reach outward.
     fn box_of(&self, wavelength_nm: f64) -> usize {
         let inner = &self.bounds_nm[1..self.len()];
@@ -116,6 +110,19 @@ impl Hall {
     #[must_use]
     pub fn reconstruct(&self, samples: &[f64]) -> Vec<f64> {
         self.range.wavelengths().map(|w| samples[self.box_of(w)]).collect()
+    }
+
+    /// The map to absolute XYZ of any observer: what a curve of 1 in one box is worth (book CLR_get_sample_xyz, which
+    /// divides by the sum of ȳ).
+    #[must_use]
+    pub fn map(&self, observer: &Observer) -> ToXyz {
+        let mut map: ToXyz = std::array::from_fn(|_| vec![0.0; self.len()]);
+        for w in self.range.wavelengths() {
+            for (row, matching) in map.iter_mut().zip(&observer.matching) {
+                row[self.box_of(w)] += LUMINOUS_EFFICACY * matching.at(w);
+            }
+        }
+        map
     }
 }
 
@@ -145,22 +152,7 @@ impl Basis for Hall {
     }
 }
 
-impl Hall {
-    /// The map to absolute XYZ of any observer: what a curve of 1 in one box is worth (book CLR_get_sample_xyz, which
-    /// divides by the sum of ȳ).
-    #[must_use]
-    pub fn map(&self, observer: &Observer) -> ToXyz {
-        let mut map: ToXyz = std::array::from_fn(|_| vec![0.0; self.len()]);
-        for w in self.range.wavelengths() {
-            for (row, matching) in map.iter_mut().zip(&observer.matching) {
-                row[self.box_of(w)] += LUMINOUS_EFFICACY * matching.at(w);
-            }
-        }
-        map
-    }
-}
-
-/// The error of boxes on products of one and two reflections, by running sums.
+/// The error of boxes on products of one and two reflections.
 struct Judge<'a> {
     products: &'a Products,
     /// CIE L\*u\*v\* of each product, and what turns XYZ into it.
@@ -178,8 +170,7 @@ impl<'a> Judge<'a> {
             if factors.len() > 2 {
                 continue;
             }
-            let xyz =
-                weights[part.lamp].each_ref().map(|w| w.iter().zip(&part.filter).map(|(w, f)| w * f).sum());
+            let xyz = xyz_by(&weights[part.lamp], &part.filter);
             let white = LuvWhite::new(item.white);
             exact.push((white.luv(xyz, Lightness::Cie), white));
             chosen.push((part.lamp, factors.clone()));
@@ -198,8 +189,8 @@ impl<'a> Judge<'a> {
             .zip(&self.exact)
             .map(|((lamp, materials), (exact, white))| {
                 let value = |i: usize| materials.iter().fold(lamps[*lamp][i], |v, &m| v * fractions[m][i]);
-                let xyz = map.each_ref().map(|row| row.iter().enumerate().map(|(i, w)| w * value(i)).sum());
-                let found: [f64; 3] = white.luv(xyz, Lightness::Cie);
+                let samples: Vec<f64> = (0..boxes.len()).map(value).collect();
+                let found: [f64; 3] = white.luv(xyz_by(&map, &samples), Lightness::Cie);
                 exact.iter().zip(found).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
             })
             .sum();

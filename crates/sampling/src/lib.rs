@@ -21,7 +21,7 @@ mod registry;
 mod tristimulus;
 mod uniform;
 
-pub use basis::{Basis, Role, ToXyz};
+pub use basis::{Basis, Role, ToXyz, xyz_by};
 pub use error::{Comparison, SpectralError, compare};
 pub use fitted::Fitted;
 pub use gauss::Gauss;

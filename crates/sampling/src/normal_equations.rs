@@ -1,7 +1,7 @@
 //! The normal equations of a fit: how well weights on a few wavelengths reproduce the colours of products.
 
 use crate::nonnegative::least_squares;
-use crate::{Products, ToXyz};
+use crate::{Part, Products, ToXyz, xyz_by};
 use illuminant_color::{Triple, delta_e_2000_metric};
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix3, Vector3};
 use rayon::prelude::*;
@@ -90,15 +90,8 @@ impl Side {
         let weights: Vec<ToXyz> =
             (0..products.lamps.len()).map(|lamp| products.weights_of_lamp(lamp)).collect();
         for (item, product) in products.items.iter().enumerate() {
-            let found: Vec<Triple> = product
-                .parts
-                .iter()
-                .map(|part| {
-                    weights[part.lamp]
-                        .each_ref()
-                        .map(|w| w.iter().zip(&part.filter).map(|(w, f)| w * f).sum())
-                })
-                .collect();
+            let xyz = |part: &Part| xyz_by(&weights[part.lamp], &part.filter);
+            let found: Vec<Triple> = product.parts.iter().map(xyz).collect();
             let total = std::array::from_fn(|a| found.iter().map(|xyz: &Triple| xyz[a]).sum());
             let metric = metric(total, product.white);
             for (part, xyz) in product.parts.iter().zip(found) {

@@ -1,5 +1,6 @@
 //! What a scene's light becomes on its way: the spectra on which a sampling is fitted and judged.
 
+use crate::ToXyz;
 use illuminant_color::Triple;
 use illuminant_spectrum::{Curve, LUMINOUS_EFFICACY, Observer, SpectralRange};
 
@@ -82,12 +83,13 @@ pub fn white_of(xyz: Triple) -> Triple {
 }
 
 impl Products {
-    /// No colour yet, of lamps over a range; `None` when the observer sees nothing of the range.
+    /// No colour yet, of lamps over a range; `None` when the observer sees nothing of the range, or no lamp of it.
     #[must_use]
     pub fn new(range: SpectralRange, lamps: Vec<Curve>) -> Option<Self> {
         let range = seen(range)?;
         let lamp_xyz: Vec<Triple> = lamps.iter().map(|l| Observer::cie_1931_2deg().xyz(l, range)).collect();
         let kinds = kinds(&lamps, &lamp_xyz, range);
+        kinds.iter().flatten().next()?;
         let reflectances = Vec::new();
         let items = Vec::new();
         Some(Self { range, lamps, reflectances, one_map: false, unknown: UNKNOWN, items, lamp_xyz, kinds })
@@ -157,7 +159,7 @@ impl Products {
 
     /// K_m x̄(λ) L(λ) and its likes for Y and Z, at each nm of the range: what turns a filter into XYZ.
     #[must_use]
-    pub fn weights_of_lamp(&self, lamp: usize) -> [Vec<f64>; 3] {
+    pub fn weights_of_lamp(&self, lamp: usize) -> ToXyz {
         let observer = Observer::cie_1931_2deg();
         observer.matching.each_ref().map(|m| {
             let at = |w| LUMINOUS_EFFICACY * m.at(w) * self.lamps[lamp].at(w);
@@ -281,6 +283,9 @@ mod tests {
 
     #[test]
     fn what_the_observer_does_not_see_has_no_products() {
+        let infrared =
+            Curve::new(vec![840.0, 900.0], vec![0.0, 1.0], illuminant_spectrum::Outside::Zero).unwrap();
+        assert!(Products::new(SpectralRange { min_nm: 380, max_nm: 1000 }, vec![infrared]).is_none());
         assert!(seen(SpectralRange { min_nm: 900, max_nm: 1700 }).is_none());
         assert_eq!(
             seen(SpectralRange { min_nm: 300, max_nm: 900 }),

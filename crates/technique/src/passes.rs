@@ -89,7 +89,14 @@ struct Passes<const N: usize, M> {
 }
 
 impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
-    fn new(scene: &Scene, basis: &dyn Basis, depth: Option<u32>, groups: &[usize], light: Light<'_>) -> Self {
+    fn new(
+        scene: &Scene,
+        basis: &dyn Basis,
+        companions: Option<&[Wavelength]>,
+        depth: Option<u32>,
+        groups: &[usize],
+        light: Light<'_>,
+    ) -> Self {
         let brightness: Vec<f32> =
             scene.materials.iter().map(|material| material.brightness(scene.range) as f32).collect();
         let passes = |basis: &dyn Basis, companion: Option<Wavelength>| -> Vec<Pass<N, M>> {
@@ -99,7 +106,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
                 .map(|samples| Pass::new(scene, &brightness, basis, samples, groups, companion, light))
                 .collect()
         };
-        let variants = match wavelengths(scene, basis) {
+        let variants = match companions {
             Some(all) => all.par_iter().map(|w| passes(&Accompanied::new(basis, *w), Some(*w))).collect(),
             None => vec![passes(basis, None)],
         };
@@ -318,15 +325,17 @@ pub(crate) fn renderer(
     groups: &[usize],
     light: Light<'_>,
 ) -> Result<Box<dyn TileRenderer>, RenderError> {
-    let samples = basis.len() + usize::from(wavelengths(scene, basis).is_some());
+    let companions = wavelengths(scene, basis);
+    let companions = companions.as_deref();
+    let samples = basis.len() + usize::from(companions.is_some());
     match lanes_for(samples).unwrap_or(32) {
-        8 => Ok(Box::new(Passes::<8, General<8>>::new(scene, basis, depth, groups, light))),
+        8 => Ok(Box::new(Passes::<8, General<8>>::new(scene, basis, companions, depth, groups, light))),
         #[cfg(not(feature = "only-8-lanes"))]
-        4 => Ok(Box::new(Passes::<4, General<4>>::new(scene, basis, depth, groups, light))),
+        4 => Ok(Box::new(Passes::<4, General<4>>::new(scene, basis, companions, depth, groups, light))),
         #[cfg(not(feature = "only-8-lanes"))]
-        16 => Ok(Box::new(Passes::<16, General<16>>::new(scene, basis, depth, groups, light))),
+        16 => Ok(Box::new(Passes::<16, General<16>>::new(scene, basis, companions, depth, groups, light))),
         #[cfg(not(feature = "only-8-lanes"))]
-        32 => Ok(Box::new(Passes::<32, General<32>>::new(scene, basis, depth, groups, light))),
+        32 => Ok(Box::new(Passes::<32, General<32>>::new(scene, basis, companions, depth, groups, light))),
         other => Err(RenderError::Setting(format!("bundles of {other} lanes are not compiled in"))),
     }
 }

@@ -1,15 +1,15 @@
 //! The colours that a scene shows, for fitting a spectral sampling to it and for judging one.
 //!
-//! A few paths are followed through the scene at every nm, with the same light at every nm from each lamp. What arrives at a
-//! pixel is then, for each kind of lamp, the sum of all products of reflectances, transmittances and absorptions that its paths met,
-//! at the angles and depths at which they met them, each weighted by how likely a path makes it. A sampling is fitted on
-//! one set of paths and judged on another.
+//! A few paths are followed through the scene at every nm, with the same light at every nm from each lamp. What arrives
+//! at a pixel is then, for each kind of lamp, the sum of all products of reflectances, transmittances and absorptions
+//! that its paths met, at the angles and depths at which they met them, each weighted by how likely a path makes it. A
+//! sampling is fitted on one set of paths and judged on another.
 
 use crate::filter::FilterSampler;
 use crate::passes::{Followed, Job, Light, TileRenderer, group_lamps, renderer};
 use crate::settings::{Layer, Settings};
 use illuminant_color::{RgbSystem, Triple};
-use illuminant_sampling::{Basis, Comparison, OneNanometre, Part, Product, Products, SpectralError};
+use illuminant_sampling::{Basis, Comparison, OneNanometre, Part, Product, Products, SpectralError, xyz_by};
 use illuminant_scene::Scene;
 use illuminant_spectrum::Curve;
 use rayon::prelude::*;
@@ -129,7 +129,7 @@ fn probe(scene: &Arc<Scene>, settings: &Settings, known: &Products, set: Set) ->
         let parts = found.samples.iter().zip(&weights).map(|(samples, weights)| {
             let filter: Vec<f64> =
                 samples[first..first + range.len()].iter().map(|v| f64::from(*v)).collect();
-            let xyz = weights.each_ref().map(|row| row.iter().zip(&filter).map(|(w, f)| w * f).sum());
+            let xyz = xyz_by(weights, &filter);
             (filter, xyz)
         });
         Probe { pixel, cell, parts: parts.collect(), material: found.material, emits: found.emits }
@@ -152,7 +152,7 @@ fn white(probes: &[Probe]) -> Option<Triple> {
     (luminance > 0.0).then(|| d65.map(|v| v * luminance))
 }
 
-/// The lamps of a scene, with no product yet; `None` where the observer sees nothing of the range.
+/// The lamps of a scene, with no product yet; `None` where the observer sees nothing of their light.
 fn known(scene: &Scene) -> Option<Products> {
     Products::new(scene.range, scene.lamps.iter().map(|lamp| lamp.spectrum.clone()).collect())
 }
@@ -172,7 +172,7 @@ fn reflectances(scene: &Scene) -> Vec<Curve> {
 }
 
 /// The products of a scene: what its pixels show, and with little weight those of its materials as such, one and two
-/// reflections under each lamp. `None` where the observer sees nothing of the range.
+/// reflections under each lamp. `None` where the observer sees nothing of the light.
 #[must_use]
 pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
     let mut products = known(scene)?;
@@ -210,7 +210,7 @@ pub fn spectral_error(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis
 }
 
 fn comparisons(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Option<Vec<Comparison>> {
-    if basis.len() == scene.range.len() {
+    if basis.is_spectral() && basis.len() == scene.range.len() {
         return None; // the reference itself
     }
     let known = known(scene)?;
@@ -226,9 +226,8 @@ fn comparisons(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Op
             follow(&*renderer, &job, (probe.cell, probe.pixel), Set::Judging, groups.len(), basis.len());
         let mut sampled = [0.0; 3];
         for (samples, map) in found.samples.iter().zip(&maps) {
-            for (sum, row) in sampled.iter_mut().zip(map) {
-                *sum += samples.iter().zip(row).map(|(v, w)| f64::from(*v) * w).sum::<f64>();
-            }
+            let samples: Vec<f64> = samples.iter().map(|v| f64::from(*v)).collect();
+            sampled.iter_mut().zip(xyz_by(map, &samples)).for_each(|(sum, v)| *sum += v);
         }
         let brightest =
             probe.parts.iter().enumerate().max_by(|(_, (_, a)), (_, (_, b))| a[1].total_cmp(&b[1]));

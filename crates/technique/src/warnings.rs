@@ -2,7 +2,7 @@
 
 use illuminant_color::{Lab, delta_e_2000};
 use illuminant_illumination::Surface;
-use illuminant_sampling::{Basis, Role, white_of};
+use illuminant_sampling::{Basis, Role, white_of, xyz_by};
 use illuminant_scene::Scene;
 use illuminant_spectrum::Observer;
 
@@ -18,7 +18,7 @@ pub(crate) fn warnings(scene: &Scene, basis: &dyn Basis, sampling: &str) -> Vec<
             continue;
         }
         let light = basis.reduce(&data.spectrum, Role::Emission);
-        let sampled = basis.to_xyz(lamp).map(|row| row.iter().zip(&light).map(|(w, l)| w * l).sum());
+        let sampled = xyz_by(&basis.to_xyz(lamp), &light);
         let white = white_of(exact);
         let off = delta_e_2000(Lab::from_xyz(exact, white), Lab::from_xyz(sampled, white));
         if off > VISIBLE {
@@ -45,7 +45,8 @@ pub(crate) fn warnings(scene: &Scene, basis: &dyn Basis, sampling: &str) -> Vec<
     }
     if scene.lamps.iter().all(|l| Observer::cie_1931_2deg().luminance(&l.spectrum, scene.range) <= 0.0) {
         found.push(format!(
-            "the observer sees nothing of the light over {}–{} nm: the image is black, whatever its spectra hold",
+            "the observer sees nothing of the light over {}–{} nm: at 1nm the image is black, and what a coarser sampling \
+             shows is its own error; the spectra alone say something",
             scene.range.min_nm, scene.range.max_nm
         ));
     }

@@ -25,7 +25,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from illuminant import colorimetry, rgb_system
+from illuminant import color, colorimetry, rgb_system
 from illuminant.core import core
 from illuminant.errors import UsageError, suggestion
 
@@ -35,13 +35,10 @@ if TYPE_CHECKING:
 
     from illuminant.spectra import Spectrum
 
-__all__ = ["AC1C2", "INTEGRATION_NM", "Functions", "for_primaries", "in_space", "named", "names"]
+__all__ = ["INTEGRATION_NM", "Functions", "for_primaries", "in_space", "named", "names"]
 
 INTEGRATION_NM = (360, 830)
 """First and last wavelength of the sums for tristimulus values, by 1 nm: all of the CIE's tables (CIE 15:2018)."""
-
-AC1C2 = ((-0.0177, 1.0090, 0.0073), (-1.5370, 1.0821, 0.3209), (0.1946, -0.2045, 0.5264))
-"""XYZ to A, C1, C2, the axes of Meyer along which the eye's responses vary most (Meyer 1988; book eq 3.6)."""
 
 
 @dataclass(frozen=True)
@@ -165,7 +162,9 @@ def in_space(observer: Functions, space: str) -> Functions:
     if folded == "xyz":
         return observer
     if folded == "ac1c2":
-        return observer.transformed(AC1C2, f"AC1C2 of Meyer, {observer.title}", ("A", "C1", "C2"))
+        # The columns of a matrix are what it makes of unit vectors.
+        matrix = color.xyz_to_ac1c2([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]).T
+        return observer.transformed(matrix, f"AC1C2 of Meyer, {observer.title}", ("A", "C1", "C2"))
     known = {str(name).casefold(): name for name in core().rgb_systems()}
     if folded not in known:
         hint = suggestion(space, ["xyz", "ac1c2", *known.values()])
