@@ -135,7 +135,8 @@ def compare(
         One study for each sampling, in their order.
 
     Raises:
-        UsageError: a sampling has no such name, there is no reflectance, two lamps have one name, or the range is none.
+        UsageError: a sampling has no such name, there is no reflectance, two lamps have one name, the range is none, or
+            depth or products are below 1.
         DataError: a spectrum has no such name.
 
     Example:
@@ -149,6 +150,8 @@ def compare(
     names_of = [lamp.name for lamp in light]
     if len(set(names_of)) < len(names_of):
         raise UsageError("Two of the lamps have one name; give each its own.")
+    if depth < 1 or (products is not None and products < 1):
+        raise UsageError("A study needs products of at least one reflection, and at least one product.")
     if not 1 <= range_nm[0] < range_nm[1] <= 20_000:
         raise UsageError(
             f"The range is {range_nm[0]} to {range_nm[1]} nm; expected one whole nm and a larger one."

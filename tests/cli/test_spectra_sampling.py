@@ -2,10 +2,13 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from illuminant import sampling
 from illuminant.cli import run
+from illuminant.errors import UsageError
 
 
 def rows(text: str) -> list[list[str]]:
@@ -70,6 +73,12 @@ def test_dark_products_count_more_when_lit(capsys: pytest.CaptureFixture[str]) -
     [study] = json.loads(capsys.readouterr().out)
     error = study["by_lamp"]["A"]
     assert error["products"] == 300 and error["lit"]["mean"] > error["mean"] > 0 and error["worst"]
+
+
+@pytest.mark.parametrize("given", [{"depth": 0}, {"products": 0}, {"range_nm": (780, 380)}])
+def test_a_study_of_nothing_is_refused(given: dict[str, Any]) -> None:
+    with pytest.raises(UsageError, match=r"at least one|expected one whole nm"):
+        sampling.compare(["rgb"], ["D65"], **given)
 
 
 @pytest.mark.parametrize(
