@@ -4,13 +4,26 @@
 //! what it needs, in lanes, and answers one trait, [`IlluminationModel`]; every technique asks through that trait.
 //! A new model is one file that implements it and one line in [`Illumination`].
 
+mod coated;
+mod coherence;
+mod conductor;
+mod dielectric;
+mod finish;
 mod general;
 mod material;
 mod model;
+mod relief;
+mod rough_boundary;
+mod spectral;
 
-pub use general::{General, Metal};
-pub use material::{Material, REPRESENTATIVE_NM, Surface};
+pub use coated::{Body, Coated, MetalUnder, Vehicle};
+pub use conductor::{Conductor, Metal};
+pub use dielectric::Dielectric;
+pub use finish::Finish;
+pub use general::General;
+pub use material::{Film, Flakes, Material, REPRESENTATIVE_NM, Surface};
 pub use model::{Claims, DiscreteLobe, Hero, IlluminationModel, Incidence, Index, Prepare, Scattered};
+pub use spectral::Spectral;
 
 use std::fmt;
 use std::str::FromStr;

@@ -1,5 +1,6 @@
 //! What a material is, physically.
 
+use crate::Finish;
 use illuminant_spectrum::{Curve, SpectralRange};
 
 /// The wavelength whose index stands for a dielectric wherever one number must do: sodium d, 589.3 nm.
@@ -12,6 +13,8 @@ pub struct Material {
     pub name: String,
     /// What its surface is made of.
     pub surface: Surface,
+    /// A direction in the world along which its grain runs, where it has one.
+    pub grain: Option<[f32; 3]>,
 }
 
 /// The physics of a surface.
@@ -28,8 +31,8 @@ pub enum Surface {
         n: Curve,
         /// Imaginary part.
         k: Curve,
-        /// Slope parameter α of its facets; 0 is a mirror.
-        roughness: f64,
+        /// Its relief.
+        finish: Finish,
     },
     /// A thin filter, such as a gel before a lamp: it absorbs, and neither reflects nor bends light.
     Filter {
@@ -40,13 +43,48 @@ pub enum Surface {
     Dielectric {
         /// Index of refraction.
         n: Curve,
-        /// Slope parameter α of its facets; 0 is smooth.
-        roughness: f64,
+        /// Its relief.
+        finish: Finish,
         /// Absorption coefficient in the body, 1/m.
         absorption: Option<Curve>,
         /// Whether the index follows the curve; otherwise it is that at [`REPRESENTATIVE_NM`] throughout.
         dispersion: bool,
     },
+    /// A dielectric vehicle over what lies in it or under it: paint, plastic, glaze, varnish, metal flake.
+    Coated {
+        /// The vehicle's index of refraction.
+        n: Curve,
+        /// The relief of its outer surface.
+        finish: Finish,
+        /// What the vehicle itself absorbs, if it is tinted.
+        film: Option<Film>,
+        /// Reflectance of the pigment for diffuse light inside the vehicle.
+        pigment: Curve,
+        /// Bits of metal that lie flat in the vehicle, or the metal under it.
+        flakes: Option<Flakes>,
+    },
+}
+
+/// A layer that absorbs.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// Absorption coefficient, 1/m.
+    pub absorption: Curve,
+    /// Thickness, m.
+    pub thickness: f64,
+}
+
+/// Metal that shows through a vehicle.
+#[derive(Clone, Debug)]
+pub struct Flakes {
+    /// Real part of the metal's index.
+    pub n: Curve,
+    /// Imaginary part.
+    pub k: Curve,
+    /// Slope m of the metal's facets, and of how the flakes lie.
+    pub slope: f64,
+    /// The fraction of the area that they cover; 1 is a sheet of metal.
+    pub coverage: f64,
 }
 
 impl Material {
@@ -63,7 +101,41 @@ impl Material {
                 Curve::tabulated(range, values, illuminant_spectrum::Outside::Hold)
             }
             Surface::Dielectric { .. } => Curve::constant(1.0),
+            Surface::Coated { pigment, .. } => pigment.clone(),
         }
+    }
+
+    /// The same surface if nothing absorbed: white paint, a metal that reflects everything, clear glass. What leaves it must be all
+    /// that came.
+    #[must_use]
+    pub fn lossless(&self) -> Self {
+        // n = 1 and k so large that 1 − F is below 10⁻⁷.
+        let perfect = || (Curve::constant(1.0), Curve::constant(1e4));
+        let surface = match &self.surface {
+            Surface::Diffuse { .. } => Surface::Diffuse { reflectance: Curve::constant(1.0) },
+            Surface::Filter { .. } => Surface::Filter { transmittance: Curve::constant(1.0) },
+            Surface::Conductor { finish, .. } => {
+                let (n, k) = perfect();
+                Surface::Conductor { n, k, finish: *finish }
+            }
+            Surface::Dielectric { n, finish, dispersion, .. } => Surface::Dielectric {
+                n: n.clone(),
+                finish: *finish,
+                absorption: None,
+                dispersion: *dispersion,
+            },
+            Surface::Coated { n, finish, flakes, .. } => Surface::Coated {
+                n: n.clone(),
+                finish: *finish,
+                film: None,
+                pigment: Curve::constant(1.0),
+                flakes: flakes.as_ref().map(|flakes| {
+                    let (n, k) = perfect();
+                    Flakes { n, k, ..flakes.clone() }
+                }),
+            },
+        };
+        Self { name: self.name.clone(), surface, grain: self.grain }
     }
 
     /// Whether light of different wavelengths parts ways when it is refracted.

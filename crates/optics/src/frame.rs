@@ -36,6 +36,28 @@ impl Frame {
         }
     }
 
+    /// A frame around a unit normal whose first axis is the direction nearest to `grain` in the surface (book 2.2.1); without a preferred
+    /// tangent where the grain stands on the surface.
+    ///
+    /// ```
+    /// use glam::Vec3;
+    /// use illuminant_optics::frame::Frame;
+    /// let frame = Frame::along(Vec3::Z, Vec3::new(0.0, 2.0, 1.0));
+    /// assert!((frame.tangent - Vec3::Y).length() < 1e-6);
+    /// // A grain turned by 90 degrees swaps the axes.
+    /// let turned = Frame::along(Vec3::Z, Vec3::new(-2.0, 0.0, 1.0));
+    /// assert!((turned.tangent - frame.bitangent).length() < 1e-6);
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn along(normal: Vec3, grain: Vec3) -> Self {
+        let tangent = grain - normal * normal.dot(grain);
+        match tangent.try_normalize().filter(|_| tangent.length_squared() > 1e-8 * grain.length_squared()) {
+            Some(tangent) => Self { tangent, bitangent: normal.cross(tangent), normal },
+            None => Self::from_normal(normal),
+        }
+    }
+
     /// Components of a world vector along the axes.
     #[inline(always)]
     #[must_use]

@@ -127,6 +127,91 @@ pub fn interpolated<R: Real>(normal: R, average: R, average_at_normal: R) -> R {
     (normal + (R::one() - normal) * rise).max(R::zero())
 }
 
+/// The reflectances of a dielectric boundary for light polarised parallel and perpendicular to the plane of incidence (book eqs
+/// 2.13 and 2.14, squared); both 1 beyond the critical angle.
+///
+/// ```
+/// use illuminant_optics::fresnel::dielectric_polarised;
+/// // At Brewster's angle, atan 1.5, nothing that is polarised in the plane of incidence is reflected.
+/// let [parallel, perpendicular] = dielectric_polarised(1.5f64.atan().cos(), 1.5);
+/// assert!(parallel < 1e-20 && perpendicular > 0.14);
+/// ```
+#[must_use]
+pub fn dielectric_polarised<R: Real>(cos_i: R, eta: R) -> [R; 2] {
+    let cos2_t = R::one() - (R::one() - cos_i * cos_i) / (eta * eta);
+    let cos_t = cos2_t.max(R::zero()).sqrt();
+    let square = |x: R| x * x;
+    if cos_i <= R::zero() || cos2_t <= R::zero() {
+        return [R::one(); 2];
+    }
+    [
+        square((eta * cos_i - cos_t) / (eta * cos_i + cos_t)),
+        square((cos_i - eta * cos_t) / (cos_i + eta * cos_t)),
+    ]
+}
+
+/// The book's approximation for conductors, parallel and perpendicular (book eqs 2.16 and 2.17), good for n² + k² ≫ 1; the
+/// exact one is [`conductor`].
+///
+/// ```
+/// use illuminant_optics::fresnel::{conductor, conductor_approximated};
+/// let [parallel, perpendicular] = conductor_approximated(0.5f64, 0.617, 2.63);
+/// assert!(((parallel + perpendicular) / 2.0 - conductor(0.5, 0.617, 2.63)).abs() < 0.02);
+/// ```
+#[must_use]
+pub fn conductor_approximated<R: Real>(cos: R, n: R, k: R) -> [R; 2] {
+    let (one, two) = (R::one(), R::of(2.0));
+    let square = n * n + k * k;
+    let both = square * cos * cos;
+    [
+        (both - two * n * cos + one) / (both + two * n * cos + one),
+        (square - two * n * cos + cos * cos) / (square + two * n * cos + cos * cos),
+    ]
+}
+
+/// The reflectance at normal incidence of an index (book eqs III.16 and III.18).
+#[must_use]
+pub fn normal_reflectance<R: Real>(n: R, k: R) -> R {
+    let (one, k2) = (R::one(), k * k);
+    ((n - one) * (n - one) + k2) / ((n + one) * (n + one) + k2)
+}
+
+/// The index n ≥ 1 of a dielectric, or of a conductor if k = 0, by its reflectance at normal incidence in [0, 1) (book eq III.17).
+///
+/// ```
+/// use illuminant_optics::fresnel::{index_of_reflectance, normal_reflectance};
+/// assert!((index_of_reflectance(normal_reflectance(1.51124f64, 0.0)) - 1.51124).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn index_of_reflectance<R: Real>(reflectance: R) -> R {
+    let root = reflectance.sqrt();
+    (R::one() + root) / (R::one() - root)
+}
+
+/// The k of a conductor with n = 1 by its reflectance at normal incidence in [0, 1) (book eq III.19).
+///
+/// ```
+/// use illuminant_optics::fresnel::{extinction_of_reflectance, normal_reflectance};
+/// assert!((normal_reflectance(1.0, extinction_of_reflectance(0.6f64)) - 0.6).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn extinction_of_reflectance<R: Real>(reflectance: R) -> R {
+    R::of(2.0) * (reflectance / (R::one() - reflectance)).sqrt()
+}
+
+/// The reflectance at normal incidence of the boundary between two dielectrics, by those of both against air: that of the pseudo-material
+/// of book III.5.1.
+///
+/// ```
+/// use illuminant_optics::fresnel::{normal_reflectance, pseudo_material};
+/// let (water, glass) = (normal_reflectance(1.33f64, 0.0), normal_reflectance(1.5, 0.0));
+/// assert!((pseudo_material(water, glass) - normal_reflectance(1.5 / 1.33, 0.0)).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn pseudo_material<R: Real>(near: R, far: R) -> R {
+    normal_reflectance(index_of_reflectance(far) / index_of_reflectance(near), R::zero())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

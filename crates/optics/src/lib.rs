@@ -1,17 +1,31 @@
 //! The optics of a surface.
 //!
-//! Closed forms at a boundary: directions ([`vectors`]), the local [`frame`], Fresnel's equations ([`fresnel`]),
-//! the [`ggx`] microfacet distribution with its masking and its visible normals, and solid angles with the ways
-//! to sample them ([`spherical_rectangle`], [`spherical_triangle`]). Everything is generic over the real type:
+//! Closed forms at a boundary: directions ([`vectors`], [`frame`]), [`fresnel`]'s equations, [`dispersion`]; how rough a surface is
+//! ([`roughness`]), what of it hides ([`masking`]), and how its facets lie ([`distribution`], [`wave_optics`]). The
+//! [`facets`] of the tracer with their visible normals, light that meets several of them ([`multiple_scattering`]) and the balance
+//! of all of it ([`equilibrium`]); light under a vehicle ([`saunderson`]), and how sources shine ([`goniometry`]). [`solid_angle`]s with the ways
+//! to sample them ([`hemisphere`], [`spherical_rectangle`], [`spherical_triangle`]). What the tracer needs is generic over the real type:
 //! f64 for analysis, f32 in the tracer. Vectors point away from the surface and have unit length (book 2.2.1).
 
+pub mod dispersion;
+pub mod distribution;
+pub mod equilibrium;
+pub mod error_function;
+pub mod facets;
 pub mod frame;
 pub mod fresnel;
-pub mod ggx;
+pub mod goniometry;
+mod grazing_warp;
 pub mod hemisphere;
+pub mod masking;
+pub mod multiple_scattering;
+pub mod roughness;
+pub mod saunderson;
+pub mod solid_angle;
 pub mod spherical_rectangle;
 pub mod spherical_triangle;
 pub mod vectors;
+pub mod wave_optics;
 
 use num_traits::{Float, FloatConst};
 

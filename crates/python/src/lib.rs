@@ -7,11 +7,13 @@ mod arrays;
 mod color;
 mod colorimetry;
 mod display;
+mod optics;
 mod sampling;
 mod scene;
 mod spectrum;
 mod technique;
 mod toml;
+mod verify;
 
 use pyo3::prelude::*;
 
@@ -24,8 +26,10 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     color::register(m)?;
     colorimetry::register(m)?;
     display::register(m)?;
+    optics::register(m)?;
     sampling::register(m)?;
     scene::register(m)?;
     technique::register(m)?;
+    verify::register(m)?;
     Ok(())
 }

@@ -58,9 +58,9 @@ pub enum MaterialData {
         n: usize,
         /// Imaginary part.
         k: usize,
-        /// Slope parameter α, 0 to 1.
+        /// Its relief.
         #[serde(default)]
-        roughness: f64,
+        finish: FinishData,
     },
     /// A thin filter.
     Filter {
@@ -75,9 +75,9 @@ pub enum MaterialData {
         name: String,
         /// Index of refraction.
         n: usize,
-        /// Slope parameter α, 0 to 1.
+        /// Its relief.
         #[serde(default)]
-        roughness: f64,
+        finish: FinishData,
         /// Absorption coefficient, 1/m.
         #[serde(default)]
         absorption: Option<usize>,
@@ -85,6 +85,76 @@ pub enum MaterialData {
         #[serde(default = "yes")]
         dispersion: bool,
     },
+    /// A vehicle over a pigment or metal.
+    Coated {
+        /// The name that messages use.
+        name: String,
+        /// Index of refraction of the vehicle.
+        n: usize,
+        /// The relief of its outer surface.
+        #[serde(default)]
+        finish: FinishData,
+        /// What the vehicle absorbs.
+        #[serde(default)]
+        film: Option<FilmData>,
+        /// Reflectance of the pigment for diffuse light inside the vehicle, in [0, 1].
+        pigment: usize,
+        /// Metal in the vehicle or under it.
+        #[serde(default)]
+        flakes: Option<FlakesData>,
+    },
+}
+
+/// The relief of a surface.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FinishData {
+    /// The slope m along the grain and across it, 0 to 1; 0 is smooth.
+    pub slope: [f64; 2],
+    /// The rms height σ, nm; absent where it is much greater than a wavelength.
+    #[serde(default)]
+    pub sigma_nm: Option<f64>,
+    /// How slopes are distributed.
+    #[serde(default)]
+    pub shape: ShapeData,
+    /// A direction in the world along which the grain runs.
+    #[serde(default)]
+    pub grain: Option<[f32; 3]>,
+}
+
+/// A distribution of slopes.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ShapeData {
+    /// Gaussian.
+    #[default]
+    Beckmann,
+    /// With long tails.
+    Ggx,
+}
+
+/// A layer that absorbs.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FilmData {
+    /// Absorption coefficient, 1/m.
+    pub absorption: usize,
+    /// Thickness, m.
+    pub thickness: f64,
+}
+
+/// Metal in a vehicle or under it.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FlakesData {
+    /// Real part of its index.
+    pub n: usize,
+    /// Imaginary part.
+    pub k: usize,
+    /// Slope m of the metal and of how flakes lie, 0 to 1.
+    pub slope: f64,
+    /// The fraction of the area covered, 0 to 1.
+    pub coverage: f64,
 }
 
 fn yes() -> bool {
@@ -115,6 +185,19 @@ pub struct EmissionData {
     /// Which sides emit.
     #[serde(default)]
     pub sides: Sides,
+    /// How intensity depends on the angle from the normal; absent for Lambert's law.
+    #[serde(default)]
+    pub distribution: Option<DistributionData>,
+}
+
+/// How intensity depends on the angle from an axis.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DistributionData {
+    /// cosᵖ.
+    CosinePower(f64),
+    /// Pairs of an angle in degrees and a value.
+    Table(Vec<[f64; 2]>),
 }
 
 /// The sides of a surface that emit; the front is where its corners run counter-clockwise.
@@ -138,9 +221,15 @@ pub enum LightData {
         name: String,
         /// Where.
         position: [f32; 3],
+        /// Along the axis of its distribution.
+        #[serde(default)]
+        axis: Option<[f32; 3]>,
+        /// How intensity depends on the angle from the axis; absent for the same everywhere.
+        #[serde(default)]
+        distribution: Option<DistributionData>,
         /// Index of the curve.
         spectrum: usize,
-        /// How bright.
+        /// How bright: an intensity is that along the axis.
         quantity: Quantity,
     },
     /// A point that shines into a cone.

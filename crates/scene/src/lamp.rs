@@ -4,6 +4,7 @@ use crate::environment::EnvironmentImage;
 use crate::geometry::Geometry;
 use crate::surface::{Hit, SurfacePoint};
 use glam::{Vec2, Vec3};
+use illuminant_optics::goniometry::Distribution;
 use illuminant_optics::spherical_rectangle::SphericalRectangle;
 use illuminant_optics::spherical_triangle::SphericalTriangle;
 use illuminant_spectrum::Curve;
@@ -30,6 +31,15 @@ pub enum LampForm {
     Point {
         /// Where it is.
         position: Vec3,
+    },
+    /// A point that shines as a distribution about an axis says; its value along the axis (or its largest) is 1.
+    Luminaire {
+        /// Where it is.
+        position: Vec3,
+        /// Unit vector along its axis.
+        axis: Vec3,
+        /// How intensity depends on the angle from the axis.
+        distribution: Distribution,
     },
     /// A point that shines into a cone.
     Spot {
@@ -69,6 +79,8 @@ pub struct SurfaceLamp {
     pub two_sided: bool,
     /// Area, m² (one side).
     pub area: f64,
+    /// How intensity depends on the angle from the normal; `None` for Lambert's law.
+    pub distribution: Option<Distribution>,
     /// Centre and radius of a sphere about the size of the lamp.
     center: Vec3,
     radius: f32,
@@ -131,6 +143,7 @@ impl SurfaceLamp {
                 object,
                 two_sided,
                 area,
+                distribution: None,
                 center,
                 radius,
                 outline: Outline::Sphere { center, radius },
@@ -160,7 +173,7 @@ impl SurfaceLamp {
         let weighted: Vec3 = middles.zip(&areas).map(|(p, &a)| p * a).sum();
         let center = weighted / (area as f32).max(f32::MIN_POSITIVE);
         let farthest = (0..count).flat_map(corners).map(|p| p.distance(center)).fold(0.0, f32::max);
-        Self { object, two_sided, area, center, radius: farthest, outline }
+        Self { object, two_sided, area, distribution: None, center, radius: farthest, outline }
     }
 
     /// About the solid angle under which a point sees the lamp, as if it faced the point; 0 behind a flat one.
@@ -172,6 +185,22 @@ impl SurfaceLamp {
             }
         }
         self.area as f32 / (from.distance_squared(self.center) + self.radius * self.radius)
+    }
+
+    /// ∫ intensity dω of a side, relative to the radiance along the normal: π for Lambert's law.
+    #[must_use]
+    pub fn projected_solid_angle(&self) -> f64 {
+        self.distribution.as_ref().map_or(std::f64::consts::PI, |d| d.flux() / d.value(1.0).max(1e-300))
+    }
+
+    /// The radiance under an angle to the normal relative to that along it.
+    #[inline(always)]
+    #[must_use]
+    pub fn relative_radiance(&self, cos: f32) -> f32 {
+        match &self.distribution {
+            None => 1.0,
+            Some(distribution) => distribution.radiance(f64::from(cos.abs())) as f32,
+        }
     }
 
     fn emits_towards(&self, normal: Vec3, direction_from_point: Vec3) -> bool {
@@ -232,7 +261,8 @@ impl SurfaceLamp {
         // Stop short of the lamp's own surface.
         let short = 1e-5 * (target.abs().max_element() + distance);
         let target = target - normal * short.copysign(cos);
-        Some(LampSample { direction, target: Some(target), pdf: Some(pdf), scale: 1.0, uv: None })
+        let scale = self.relative_radiance(cos);
+        Some(LampSample { direction, target: Some(target), pdf: Some(pdf), scale, uv: None })
     }
 
     /// The density, 1/sr, with which `sample` draws the direction in which a ray from a point has met the lamp.
@@ -385,6 +415,10 @@ impl Lamp {
         match &self.form {
             LampForm::Surface(surface) => surface.sample(geometry, from, time, u),
             LampForm::Point { position } => point(*position, 1.0),
+            LampForm::Luminaire { position, axis, distribution } => {
+                let cos = (from - *position).normalize_or_zero().dot(*axis);
+                point(*position, distribution.value(f64::from(cos)) as f32)
+            }
             LampForm::Spot { position, axis, cos_full, cos_end } => {
                 let cos = (from - *position).normalize_or_zero().dot(*axis);
                 point(*position, spot_falloff(cos, *cos_full, *cos_end))
@@ -429,6 +463,16 @@ impl Lamp {
         }
     }
 
+    /// The radiance in a direction in which it has been met, relative to that of its spectrum.
+    #[inline(always)]
+    #[must_use]
+    pub fn relative_radiance(&self, geometric_normal: Vec3, direction: Vec3) -> f32 {
+        match &self.form {
+            LampForm::Surface(surface) => surface.relative_radiance(geometric_normal.dot(direction)),
+            _ => 1.0,
+        }
+    }
+
     /// The illuminance, lx, that the lamp can be expected to bring to a point that faces it, if nothing is in the way;
     /// `luminous` is the luminance (intensity, illuminance) of its spectrum. Zero only where it brings none.
     #[inline]
@@ -438,6 +482,11 @@ impl Lamp {
             * match &self.form {
                 LampForm::Surface(surface) => surface.expected_solid_angle(from),
                 LampForm::Point { position } => from.distance_squared(*position).max(1e-12).recip(),
+                LampForm::Luminaire { position, axis, distribution } => {
+                    let d = from - *position;
+                    let cos = d.normalize_or_zero().dot(*axis);
+                    distribution.value(f64::from(cos)) as f32 / d.length_squared().max(1e-12)
+                }
                 LampForm::Spot { position, axis, cos_full, cos_end } => {
                     let d = from - *position;
                     spot_falloff(d.normalize_or_zero().dot(*axis), *cos_full, *cos_end)
@@ -459,6 +508,7 @@ impl Lamp {
             * match &self.form {
                 LampForm::Surface(surface) => PI * surface.area * if surface.two_sided { 2.0 } else { 1.0 },
                 LampForm::Point { .. } => 4.0 * PI,
+                LampForm::Luminaire { distribution, .. } => distribution.flux(),
                 LampForm::Spot { cos_full, cos_end, .. } => {
                     spot_solid_angle(f64::from(*cos_full), f64::from(*cos_end))
                 }

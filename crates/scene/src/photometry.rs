@@ -56,7 +56,8 @@ impl Quantity {
 /// The kind of light source, with what its quantities depend on.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
-    /// A Lambertian surface with this area times the number of its luminous sides, m². The result is radiance.
+    /// A surface with this area times the number of its luminous sides, m². The result is radiance along the normal. One that does not
+    /// obey Lambert's law has the area times ∫ intensity dω/π.
     Surface {
         /// Area × sides.
         area: f64,

@@ -1,6 +1,8 @@
 //! A scene ready for rendering.
 
-use crate::description::{CurveData, Description, LightData, MaterialData, Sides, UpAxis};
+use crate::description::{
+    CurveData, Description, DistributionData, FinishData, LightData, MaterialData, ShapeData, Sides, UpAxis,
+};
 use crate::environment::EnvironmentImage;
 use crate::lamp::{Lamp, LampForm, SurfaceLamp, spot_solid_angle};
 use crate::lamp_chooser::{LampChooser, chooser};
@@ -8,7 +10,9 @@ use crate::photometry::{Source, absolute_spectrum};
 use crate::{Camera, Geometry};
 use glam::{DVec3, Mat3, Vec3};
 use illuminant_color::RgbSystem;
-use illuminant_illumination::{Material, Surface};
+use illuminant_illumination::{Film, Finish, Flakes, Material, Surface};
+use illuminant_optics::facets::Shape;
+use illuminant_optics::goniometry::Distribution;
 use illuminant_spectrum::{Curve, Observer, SpectralRange};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -95,8 +99,14 @@ impl Scene {
             }
             let mut lamp = None;
             if let Some(emission) = &data.emission {
-                let surface = SurfaceLamp::new(&geometry, index, emission.sides == Sides::Both);
-                let area = surface.area * if surface.two_sided { 2.0 } else { 1.0 };
+                let mut surface = SurfaceLamp::new(&geometry, index, emission.sides == Sides::Both);
+                surface.distribution = distribution(emission.distribution.as_ref(), &place)?;
+                if surface.distribution.as_ref().is_some_and(|d| d.value(1.0) <= 0.0) {
+                    let problem = "the distribution of a surface must not be 0 along its normal";
+                    return Err(error(place, problem));
+                }
+                let sides = if surface.two_sided { 2.0 } else { 1.0 };
+                let area = surface.area * sides * surface.projected_solid_angle() / std::f64::consts::PI;
                 let relative = get(&curves, emission.spectrum, &place)?;
                 let spectrum =
                     absolute_spectrum(relative, emission.quantity, Source::Surface { area }, range)
@@ -156,13 +166,6 @@ fn get<'a>(curves: &'a [Curve], index: usize, place: &str) -> Result<&'a Curve, 
 
 fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Result<Material, SceneError> {
     let place = |name: &str| format!("materials.{name}");
-    let rough = |name: &str, roughness: f64| {
-        if (0.0..=1.0).contains(&roughness) {
-            Ok(roughness)
-        } else {
-            Err(error(place(name), format!("roughness must lie in [0, 1], and {roughness} does not")))
-        }
-    };
     let at_least = |name: &str, what: &str, index: usize, least: f64| {
         let curve = get(curves, index, &place(name))?;
         if curve.extent(range).0 < least {
@@ -184,43 +187,102 @@ fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Resu
         }
         Ok(curve)
     };
-    match data {
+    let finish = |name: &str, finish: &FinishData| {
+        if finish.slope.iter().any(|m| !(0.0..=1.0).contains(m)) {
+            return Err(error(
+                place(name),
+                format!("slopes must lie between 0 and 1, not {:?}", finish.slope),
+            ));
+        }
+        if finish.sigma_nm.is_some_and(|sigma| !(sigma >= 0.0 && sigma.is_finite())) {
+            return Err(error(place(name), "sigma_nm must not be negative"));
+        }
+        let shape = match finish.shape {
+            ShapeData::Beckmann => Shape::Beckmann,
+            ShapeData::Ggx => Shape::Ggx,
+        };
+        Ok(Finish { slope: finish.slope, sigma_nm: finish.sigma_nm, shape })
+    };
+    let (name, surface) = match data {
         MaterialData::Diffuse { name, reflectance } => {
-            let reflectance = fraction(name, "reflectance", *reflectance)?;
-            Ok(Material { name: name.clone(), surface: Surface::Diffuse { reflectance } })
+            (name, Surface::Diffuse { reflectance: fraction(name, "reflectance", *reflectance)? })
         }
         MaterialData::Filter { name, transmittance } => {
-            let transmittance = fraction(name, "transmittance", *transmittance)?;
-            Ok(Material { name: name.clone(), surface: Surface::Filter { transmittance } })
+            (name, Surface::Filter { transmittance: fraction(name, "transmittance", *transmittance)? })
         }
-        MaterialData::Conductor { name, n, k, roughness } => {
-            let surface = Surface::Conductor {
-                n: at_least(name, "n", *n, 1e-4)?,
-                k: at_least(name, "k", *k, 0.0)?,
-                roughness: rough(name, *roughness)?,
-            };
-            Ok(Material { name: name.clone(), surface })
+        MaterialData::Conductor { name, n, k, finish: relief } => {
+            let (n, k) = (at_least(name, "n", *n, 1e-4)?, at_least(name, "k", *k, 0.0)?);
+            (name, Surface::Conductor { n, k, finish: finish(name, relief)? })
         }
-        MaterialData::Dielectric { name, n, roughness, absorption, dispersion } => {
-            let absorption = match absorption {
-                Some(index) => Some(at_least(name, "absorption", *index, 0.0)?),
-                None => None,
-            };
+        MaterialData::Dielectric { name, n, finish: relief, absorption, dispersion } => {
             let surface = Surface::Dielectric {
                 n: at_least(name, "n", *n, 0.1)?,
-                roughness: rough(name, *roughness)?,
-                absorption,
+                finish: finish(name, relief)?,
+                absorption: absorption.map(|a| at_least(name, "absorption", a, 0.0)).transpose()?,
                 dispersion: *dispersion,
             };
-            Ok(Material { name: name.clone(), surface })
+            (name, surface)
         }
-    }
+        MaterialData::Coated { name, n, finish: relief, film, pigment, flakes } => {
+            let film = film.map(|film| {
+                if !(film.thickness >= 0.0 && film.thickness.is_finite()) {
+                    return Err(error(place(name), "the thickness of a film must not be negative"));
+                }
+                let absorption = at_least(name, "absorption", film.absorption, 0.0)?;
+                Ok(Film { absorption, thickness: film.thickness })
+            });
+            let flakes = flakes.map(|flakes| {
+                if !(0.0..=1.0).contains(&flakes.slope) || !(0.0..=1.0).contains(&flakes.coverage) {
+                    let problem = "slope and coverage of flakes must lie between 0 and 1";
+                    return Err(error(place(name), problem));
+                }
+                Ok(Flakes {
+                    n: at_least(name, "n", flakes.n, 1e-4)?,
+                    k: at_least(name, "k", flakes.k, 0.0)?,
+                    slope: flakes.slope,
+                    coverage: flakes.coverage,
+                })
+            });
+            let surface = Surface::Coated {
+                n: at_least(name, "n", *n, 1.0)?,
+                finish: finish(name, relief)?,
+                film: film.transpose()?,
+                pigment: fraction(name, "pigment", *pigment)?,
+                flakes: flakes.transpose()?,
+            };
+            (name, surface)
+        }
+    };
+    let grain = match data {
+        MaterialData::Conductor { finish, .. }
+        | MaterialData::Dielectric { finish, .. }
+        | MaterialData::Coated { finish, .. } => finish.grain,
+        _ => None,
+    };
+    let grain = grain.map(|grain| unit(&place(name), "grain", grain)).transpose()?;
+    Ok(Material { name: name.clone(), surface, grain: grain.map(|grain| grain.to_array()) })
 }
 
 fn unit(place: &str, key: &str, v: [f32; 3]) -> Result<Vec3, SceneError> {
     Vec3::from(v)
         .try_normalize()
         .ok_or_else(|| error(place, format!("{key} must be a finite vector that is not zero")))
+}
+
+/// A distribution of intensity, checked.
+fn distribution(data: Option<&DistributionData>, place: &str) -> Result<Option<Distribution>, SceneError> {
+    match data {
+        None => Ok(None),
+        Some(DistributionData::CosinePower(p)) if (0.0..=1000.0).contains(p) => {
+            Ok(Some(Distribution::CosinePower(*p)))
+        }
+        Some(DistributionData::CosinePower(p)) => {
+            Err(error(place, format!("cosine_power must lie between 0 and 1000, not {p}")))
+        }
+        Some(DistributionData::Table(pairs)) => {
+            Distribution::table(pairs.clone()).map(Some).map_err(|problem| error(place, problem))
+        }
+    }
 }
 
 fn lamp(
@@ -236,7 +298,23 @@ fn lamp(
         Ok(Lamp { name: name.into(), spectrum, form })
     };
     match data {
-        LightData::Point { name, position, spectrum, quantity } => {
+        LightData::Point { name, position, axis, distribution: Some(data), spectrum, quantity } => {
+            let place = format!("lights.{name}");
+            let Some(mut distribution) = distribution(Some(data), &place)? else {
+                return Err(error(place, "a luminaire needs a distribution"));
+            };
+            let axis = unit(&place, "axis", axis.unwrap_or([0.0, -1.0, 0.0]))?;
+            // Along the axis intensity is what is stated.
+            if let Distribution::Table(pairs) = &mut distribution {
+                let largest = pairs.iter().map(|pair| pair[1]).fold(0.0, f64::max);
+                let unit = if pairs[0][1] > 0.0 { pairs[0][1] } else { largest };
+                pairs.iter_mut().for_each(|pair| pair[1] /= unit);
+            }
+            let source = Source::Point { solid_angle: distribution.flux() };
+            let form = LampForm::Luminaire { position: Vec3::from(*position), axis, distribution };
+            finish(name, *spectrum, *quantity, source, form)
+        }
+        LightData::Point { name, position, distribution: None, spectrum, quantity, .. } => {
             let source = Source::Point { solid_angle: 4.0 * std::f64::consts::PI };
             finish(name, *spectrum, *quantity, source, LampForm::Point { position: Vec3::from(*position) })
         }

@@ -191,7 +191,8 @@ impl PathTracer {
             if let Some(lamp) =
                 object.lamp.filter(|&l| scene.lamps[l].emits(point.geometric_normal, path.ray.direction))
             {
-                let weight = self.weight_of_hit(scene, &path, lamp, &hit, &point);
+                let weight = self.weight_of_hit(scene, &path, lamp, &hit, &point)
+                    * scene.lamps[lamp].relative_radiance(point.geometric_normal, path.ray.direction);
                 radiance[path.bundle + group_of[lamp]] += path.throughput * pass.emission[lamp] * weight;
                 primary.emits |= segment == 1;
             }
@@ -247,7 +248,10 @@ impl PathTracer {
         // A shading normal that faces away where the surface faces the viewer is no normal to shade with.
         let facing = point.normal.dot(to_viewer) * point.geometric_normal.dot(to_viewer) > 0.0;
         let normal = if facing { point.normal } else { point.geometric_normal };
-        let frame = Frame::from_normal(normal);
+        let frame = match scene.materials[material].grain {
+            Some(grain) => Frame::along(normal, Vec3::from(grain)),
+            None => Frame::from_normal(normal),
+        };
         let local = frame.to_local(to_viewer);
         let outside = local.z > 0.0;
         let around = path.media;

@@ -38,9 +38,10 @@ pub struct Lobes {
 /// expected.
 ///
 /// ```
-/// use illuminant_illumination::General;
+/// use illuminant_illumination::{Dielectric, Finish, General, Spectral};
 /// use illuminant_verify::{discrete::frequencies, site::Site};
-/// let glass = General::<4>::Dielectric { dispersive: false, facets: None };
+/// let smooth = Dielectric::new(false, &Finish::MIRROR, &Spectral::monochromatic(550.0));
+/// let glass = General::<4>::Dielectric(smooth);
 /// let found = frequencies(&glass, &Site::new(1.0, 1.5), [0.0, 0.0, 1.0], 10_000, 0);
 /// assert!((found.lobes[0].probability - 0.04).abs() < 1e-6 && found.p_value > 0.01);
 /// ```

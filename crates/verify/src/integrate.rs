@@ -240,6 +240,30 @@ fn add<const K: usize>(sum: &mut [f64; K], values: [f64; K]) {
     }
 }
 
+/// The directions of the book's hemispherical integrator (III.2) with the solid angle of each: `increments` steps of elevation and four
+/// times as many of azimuth, taken at their middles.
+///
+/// ∫ f cos θ dω is then the sum of f cos θ times the solid angles, to first order; [`Quadrature`] is the better way.
+///
+/// ```
+/// use illuminant_verify::integrate::book_hemisphere;
+/// let mut sum = 0.0;
+/// book_hemisphere(32, |direction, solid_angle| sum += direction[2] * solid_angle);
+/// assert!((sum - 3.142539).abs() < 1e-6); // the book's value
+/// ```
+pub fn book_hemisphere(increments: usize, mut visit: impl FnMut([f64; 3], f64)) {
+    let step = PI / (2.0 * increments as f64);
+    for i in 0..increments {
+        let low = i as f64 * step;
+        let solid_angle = step * (low.cos() - (low + step).cos());
+        let (sin, cos) = (low + 0.5 * step).sin_cos();
+        for j in 0..4 * increments {
+            let (y, x) = ((j as f64 + 0.5) * step).sin_cos();
+            visit([sin * y, sin * x, cos], solid_angle);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

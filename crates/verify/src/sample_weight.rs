@@ -21,6 +21,8 @@ pub struct Disagreement {
     pub direction: [f64; 3],
     /// Of the densities, relative to the larger.
     pub pdf: f64,
+    /// The largest weight of a draw, without the n² of radiance.
+    pub largest_weight: f64,
     /// How many directions were compared.
     pub directions: u64,
     /// How many directions said `transmitted` and lay on the side of the viewer, or the other way round.
@@ -59,6 +61,11 @@ pub fn largest_disagreement<const N: usize>(
         let Some(drawn) = model.sample(&at, random.singles(), Some(hero)) else { continue };
         if site.lanes().any(|lane| !drawn.weight[lane].is_finite() || drawn.weight[lane] < 0.0) {
             found.invalid += 1;
+        }
+        let squeeze = site.squeeze(to_viewer);
+        for lane in site.lanes() {
+            let n2 = if drawn.transmitted { squeeze[lane] } else { 1.0 };
+            found.largest_weight = found.largest_weight.max(f64::from(drawn.weight[lane]) * n2);
         }
         let opposite = drawn.direction.z * at.to_viewer.z < 0.0;
         if opposite != drawn.transmitted && drawn.direction.z != 0.0 {

@@ -1,8 +1,7 @@
 //! The model `general` under all testers: diffuse, smooth and rough conductors, smooth and rough dielectrics
 //! looked at from both sides and beyond the critical angle, with and without dispersion.
 
-use illuminant_illumination::{General, IlluminationModel, Metal};
-use illuminant_optics::ggx::Ggx;
+use illuminant_illumination::{Conductor, Dielectric, Finish, General, IlluminationModel, Metal, Spectral};
 use illuminant_sampling::Lanes;
 use illuminant_verify::chi_square::{ChiSquare, sidak};
 use illuminant_verify::discrete::frequencies;
@@ -25,7 +24,7 @@ struct Case {
     keeps_all: bool,
 }
 
-const ROUGHNESS: [f32; 4] = [0.05, 0.2, 0.5, 1.0];
+const ROUGHNESS: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
 const INDICES: [f32; 3] = [1.33, 1.5, 2.4];
 const ANGLES_DEG: [f64; 3] = [0.0, 40.0, 80.0];
 
@@ -33,8 +32,13 @@ fn view(theta_deg: f64) -> [f64; 3] {
     Cell::direction([theta_deg.to_radians(), 0.7])
 }
 
-fn facets(alpha: f32) -> Option<Ggx<f32>> {
-    (alpha > 0.0).then_some(Ggx { alpha })
+/// A relief much higher than a wavelength, so that nothing stays coherent; none at all for m = 0.
+fn finish(m: f64) -> Finish {
+    if m > 0.0 { Finish::rough(m) } else { Finish::MIRROR }
+}
+
+fn green() -> Spectral<8> {
+    Spectral::monochromatic(550.0)
 }
 
 fn diffuse(reflectance: f32) -> Model {
@@ -42,26 +46,23 @@ fn diffuse(reflectance: f32) -> Model {
 }
 
 /// Copper by eye: n falls and k rises from blue to red (the book's figure III.4).
-fn copper(alpha: f32) -> Model {
+fn copper(m: f64) -> Model {
     let lane = |i: usize| i as f32 / 7.0;
-    General::Conductor {
-        fresnel: Metal::Index {
-            n: Lanes(std::array::from_fn(|i| 1.2 - 0.95 * lane(i))),
-            k: Lanes(std::array::from_fn(|i| 2.3 + 1.6 * lane(i))),
-        },
-        brightness: 0.8,
-        facets: facets(alpha),
-    }
+    let fresnel = Metal::Index {
+        n: Lanes(std::array::from_fn(|i| 1.2 - 0.95 * lane(i))),
+        k: Lanes(std::array::from_fn(|i| 2.3 + 1.6 * lane(i))),
+    };
+    General::Conductor(Conductor::new(fresnel, 0.8, &finish(m), &green()))
 }
 
-fn glass(alpha: f32) -> Model {
-    General::Dielectric { dispersive: false, facets: facets(alpha) }
+fn glass(m: f64) -> Model {
+    General::Dielectric(Dielectric::new(false, &finish(m), &green()))
 }
 
 /// Glass that disperses: lanes from 1.54 to 1.50.
-fn dispersive(alpha: f32, hero_lane: Option<usize>) -> (Model, Site<8>) {
+fn dispersive(m: f64, hero_lane: Option<usize>) -> (Model, Site<8>) {
     let site = Site { above: Medium::uniform(1.0), below: Medium::graded(1.54, 1.5), hero_lane };
-    (General::Dielectric { dispersive: true, facets: facets(alpha) }, site)
+    (General::Dielectric(Dielectric::new(true, &finish(m), &green())), site)
 }
 
 /// Every surface with a continuous part, under every view.
@@ -72,7 +73,7 @@ fn rough_cases() -> Vec<Case> {
         let below = if site.above.mean == site.below.mean { &[140.0][..] } else { &[180.0, 140.0, 100.0] };
         for theta in ANGLES_DEG.iter().chain(below) {
             let name = format!("{name}, view {theta} degrees");
-            cases.push(Case { name, model, site, to_viewer: view(*theta), keeps_all });
+            cases.push(Case { name, model: model.clone(), site, to_viewer: view(*theta), keeps_all });
         }
     };
     for reflectance in [0.3, 1.0] {
@@ -81,10 +82,10 @@ fn rough_cases() -> Vec<Case> {
     for alpha in ROUGHNESS {
         add(format!("copper, roughness {alpha}"), copper(alpha), Site::new(1.0, 1.0), false);
         for n in INDICES {
-            add(format!("glass {n}, roughness {alpha}"), glass(alpha), Site::new(1.0, n), false);
+            add(format!("glass {n}, roughness {alpha}"), glass(alpha), Site::new(1.0, n), true);
         }
         let (model, site) = dispersive(alpha, Some(5));
-        add(format!("dispersive glass, lane 5, roughness {alpha}"), model, site, false);
+        add(format!("dispersive glass, lane 5, roughness {alpha}"), model, site, true);
     }
     add("copper in water, roughness 0.3".into(), copper(0.3), Site::new(1.33, 1.33), false);
     cases
@@ -97,7 +98,7 @@ fn smooth_cases() -> Vec<Case> {
     for theta in [0.0, 40.0, 80.0, 89.9, 180.0, 140.0, 100.0] {
         let mut add = |name: String, model: Model, site: Site<8>, keeps_all: bool| {
             let name = format!("{name}, view {theta} degrees");
-            cases.push(Case { name, model, site, to_viewer: view(theta), keeps_all });
+            cases.push(Case { name, model: model.clone(), site, to_viewer: view(theta), keeps_all });
         };
         add("smooth copper".into(), copper(0.0), Site::new(1.0, 1.0), false);
         for transmittance in [0.3, 1.0] {
@@ -125,7 +126,7 @@ fn directions_have_their_density() {
     let (model, site) = dispersive(0.3, None);
     for theta in [40.0, 140.0] {
         let name = format!("dispersive glass, all lanes, view {theta} degrees");
-        cases.push(Case { name, model, site, to_viewer: view(theta), keeps_all: false });
+        cases.push(Case { name, model: model.clone(), site, to_viewer: view(theta), keeps_all: false });
     }
     let significance = sidak(0.01, cases.len());
     for (i, case) in cases.iter().enumerate() {
@@ -147,7 +148,7 @@ fn drawn_directions_weigh_what_they_should() {
         assert_eq!((found.wrong_side, found.invalid), (0, 0), "{}: {found:?}", case.name);
         assert!(found.weight < 1e-5, "{}: {found:?}", case.name);
         // Next to the critical angle 1 - R hangs on the last digits of the half vector; elsewhere it is 1e-5 too.
-        let allowed = if matches!(case.model, General::Dielectric { .. }) { 3e-3 } else { 1e-5 };
+        let allowed = if matches!(case.model, General::Dielectric(_)) { 3e-3 } else { 1e-5 };
         assert!(found.pdf < allowed, "{}: {found:?}", case.name);
     }
 }
@@ -159,15 +160,7 @@ fn light_changes_places_with_the_viewer() {
         let all = Reciprocity::default();
         let found = all.largest_of_model(&case.model, &case.site);
         assert!(found.mean < 1e-5, "{}: {found:?}", case.name);
-        if matches!(case.model, General::Dielectric { .. }) {
-            // Next to the critical angle 1 - R has few digits in f32 when it is computed from the denser side.
-            assert!(found.relative < 5e-3, "{}: {found:?}", case.name);
-            let clear = Reciprocity { floor: 0.05, grazing: 0.1, ..all };
-            let found = clear.largest_of_model(&case.model, &case.site);
-            assert!(found.relative < 5e-4, "{}: {found:?}", case.name);
-        } else {
-            assert!(found.relative < 1e-5, "{}: {found:?}", case.name);
-        }
+        assert!(found.relative < 1e-4, "{}: {found:?}", case.name);
     }
 }
 
@@ -178,28 +171,15 @@ fn no_light_is_made_and_what_is_claimed_is_kept() {
         let drawn = by_drawing(&case.model, &case.site, case.to_viewer, 50_000, i as u64);
         for lane in case.site.lanes() {
             let (total, drawn) = (exact.total()[lane], drawn.albedo.total()[lane]);
-            assert!(total < 1.0 + 5e-4, "{}: {exact:?}", case.name);
+            assert!(total < 1.0 + 2e-3, "{}: {exact:?}", case.name);
             assert!((drawn / total - 1.0).abs() < 5e-3, "{}: drawn {drawn}, integrated {total}", case.name);
             if case.keeps_all {
                 assert!(case.model.claims().equilibrium);
-                assert!((total - 1.0).abs() < 1e-4, "{}: {exact:?}", case.name);
+                // Tables of multiple scattering are those of the representative index.
+                let allowed = if case.name.starts_with("dispersive") { 8e-3 } else { 2e-3 };
+                assert!((total - 1.0).abs() < allowed, "{}: {exact:?}", case.name);
             }
         }
-    }
-}
-
-#[test]
-fn rough_facets_claim_no_equilibrium_because_they_lose_light() {
-    // The counter-examples: light that meets a second facet is gone.
-    for (model, site) in [(copper(1.0), Site::new(1.0, 1.0)), (glass(1.0), Site::new(1.0, 1.5))] {
-        assert!(!model.claims().equilibrium);
-        let rough = by_quadrature(&model, &site, view(40.0), &quadrature()).total();
-        let smooth = match model {
-            General::Conductor { .. } => copper(0.0),
-            _ => glass(0.0),
-        };
-        let smooth = by_quadrature(&smooth, &site, view(40.0), &quadrature()).total();
-        assert!((0..8).all(|lane| rough[lane] < 0.9 * smooth[lane]), "{rough:?} {smooth:?}");
     }
 }
 
@@ -230,7 +210,7 @@ fn discrete_lobes_come_as_often_as_they_weigh() {
         let reflectance = by_quadrature(&case.model, &case.site, case.to_viewer, &quadrature()).reflected;
         // A conductor and a filter have one lobe; a dielectric chooses by Fresnel's reflectance.
         let wanted = match case.model {
-            General::Conductor { .. } | General::Filter { .. } => 1.0,
+            General::Conductor(_) | General::Filter { .. } => 1.0,
             _ => reflectance[case.site.lanes().next().unwrap()],
         };
         assert!((found.lobes[0].probability - wanted).abs() < 1e-4, "{}: {found:?}", case.name);
@@ -277,7 +257,7 @@ fn the_ends_of_the_unit_cube_and_grazing_views_give_directions() {
                 let Some(drawn) = case.model.sample(&at, u, Some(0)) else { continue };
                 let told = || format!("{}, cosine {cos}, numbers {u:?}: {drawn:?}", case.name);
                 assert!((drawn.direction.length() - 1.0).abs() < 1e-5, "{}", told());
-                assert!(case.site.lanes().all(|i| (0.0..=6.0).contains(&drawn.weight[i])), "{}", told());
+                assert!(case.site.lanes().all(|i| (0.0..=100.0).contains(&drawn.weight[i])), "{}", told());
                 assert!(drawn.brightness >= 0.0 && drawn.brightness <= 1.0 + 1e-6, "{}", told());
                 assert!(drawn.pdf.is_none_or(|pdf| pdf >= 0.0 && pdf.is_finite()), "{}", told());
                 assert!(case.model.pdf(&at, drawn.direction).is_finite(), "{}", told());

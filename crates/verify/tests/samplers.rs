@@ -1,7 +1,7 @@
 //! Chi-square of the samplers of `illuminant-optics`, in f64 and f32: directions over the hemisphere and the
 //! sphere, over rectangles and triangles seen from a point, and facet normals visible from a direction.
 
-use illuminant_optics::ggx::Ggx;
+use illuminant_optics::facets::{Facets, Shape};
 use illuminant_optics::hemisphere::{cosine, sphere};
 use illuminant_optics::spherical_rectangle::SphericalRectangle;
 use illuminant_optics::spherical_triangle::SphericalTriangle;
@@ -101,25 +101,39 @@ fn triangles() {
     }
 }
 
-fn facets_of<R: Real>(alpha: f64, theta_deg: f64, seed: u64, to_real: impl Fn([f64; 2]) -> [R; 2]) {
+fn facets_of<R: Real>(
+    shape: Shape,
+    slope: [f64; 2],
+    theta_deg: f64,
+    seed: u64,
+    to_real: impl Fn([f64; 2]) -> [R; 2],
+) {
     let v = Cell::direction([theta_deg.to_radians(), 0.7]);
-    let ggx = Ggx { alpha: R::of(alpha) };
+    let facets = Facets { shape, slope: slope.map(R::of) };
     let seen = v.map(R::of);
     let double = |h: Vector<R>| h.map(|x| x.to_f64().unwrap());
     // The density in f64 for either: it is the law, not its rounding.
-    let exact = Ggx { alpha };
-    let name = format!("facets alpha {alpha}, view {theta_deg} degrees, {}", std::any::type_name::<R>());
-    check(&name, seed, |u| Some(double(ggx.sample_visible(seen, to_real(u)))), |h| exact.pdf_visible(v, h));
+    let exact = Facets { shape, slope };
+    let name =
+        format!("{shape:?} facets {slope:?}, view {theta_deg} degrees, {}", std::any::type_name::<R>());
+    check(
+        &name,
+        seed,
+        |u| Some(double(facets.sample_visible(seen, to_real(u)))),
+        |h| exact.pdf_visible(v, h),
+    );
 }
 
 #[test]
 fn facets() {
     let mut seed = 100;
-    for alpha in [0.05, 0.2, 0.5, 1.0, 2.0, 5.0] {
-        for theta in [0.0, 50.0, 85.0] {
-            facets_of::<f64>(alpha, theta, seed, |u| u);
-            facets_of::<f32>(alpha, theta, seed + 1, singles);
-            seed += 2;
+    for shape in [Shape::Beckmann, Shape::Ggx] {
+        for slope in [[0.05, 0.05], [0.2, 0.2], [1.0, 1.0], [3.0, 3.0], [0.1, 0.4], [0.8, 0.3]] {
+            for theta in [0.0, 50.0, 85.0] {
+                facets_of::<f64>(shape, slope, theta, seed, |u| u);
+                facets_of::<f32>(shape, slope, theta, seed + 1, singles);
+                seed += 2;
+            }
         }
     }
 }
