@@ -1,11 +1,12 @@
 """Images whose colours can be trusted: from measured lamps and materials to a calibrated display.
 
-The five names that most people need are here; everything else lives in the module of its concern
+The six names that most people need are here; everything else lives in the module of its concern
 (`illuminant.spectra`, `illuminant.image`, `illuminant.errors` and so on).
 
     load(path)            read a scene file (`illuminant.scene.Scene`)
     render(scene, ...)    make an `Image` of a scene or of a scene file
     diff(a, b)            CIEDE2000 and FLIP between two images
+    audit(material)       where the light goes that reaches a material, and which laws its model keeps
     Scene, Image          what the first two return
     Error                 base of every error raised on purpose; its kinds are in `illuminant.errors`
 
@@ -24,6 +25,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from illuminant.auditing import audit
     from illuminant.difference import diff
     from illuminant.errors import (
         DataError,
@@ -51,6 +53,7 @@ __all__ = [
     "SceneError",
     "UsageError",
     "__version__",
+    "audit",
     "diff",
     "load",
     "render",
@@ -68,6 +71,7 @@ _HOME = {
     "Scene": "scene",
     "SceneError": "errors",
     "UsageError": "errors",
+    "audit": "auditing",
     "diff": "difference",
     "load": "scene",
     "render": "rendering",

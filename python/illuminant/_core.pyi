@@ -277,6 +277,40 @@ def encode_png(
 ) -> bytes:
     """A PNG with exactly the chunks asked for; `chromaticities` are x, y of white, red, green and blue."""
 
+def audit_material(
+    scene: Scene,
+    material: int,
+    illumination: str,
+    wavelengths_nm: list[float],
+    angles_deg: list[float],
+    draws: int,
+) -> dict[str, Any]:
+    """What becomes of the light that reaches a material of a scene, and by how much laws are broken."""
+
+def chi_square_p_value(statistic: float, degrees_of_freedom: int) -> float:
+    """The chance of so large a chi-square."""
+
+def sidak_significance(significance: float, tests: int) -> float:
+    """The significance of each of several tests."""
+
+def hemisphere_directions(increments: int) -> list[tuple[list[float], float]]:
+    """The directions of the book's hemispherical integrator and the solid angle of each."""
+
+def optics(name: str, arguments: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """A function of the room optics by name, for each row of arrays of one length."""
+
+def rough_profile(count: int, spacing: float, sigma: float, tau: float, seed: int) -> NDArray[np.float64]:
+    """The heights of a rough profile."""
+
+def fraunhofer_lines() -> list[tuple[str, float]]:
+    """The lines by which glasses are measured, in nm."""
+
+def sellmeier(terms: list[tuple[float, float]], wavelengths_nm: list[float]) -> list[float]:
+    """The index of Sellmeier's formula; NaN at a resonance."""
+
+def cauchy(coefficients: list[float], wavelengths_nm: list[float]) -> list[float]:
+    """The index of Cauchy's formula."""
+
 class Geometry:
     """The ray structure: shapes and where they stand."""
 

@@ -10,6 +10,7 @@ the order of first use with keys in alphabetical order, so that equal scenes hav
 
 from __future__ import annotations
 
+import itertools
 import math
 import os
 from collections.abc import Mapping
@@ -17,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-from illuminant import environments, placement, spectra
+from illuminant import environments, finishes, materials, placement, spectra
 from illuminant.curves import Curves, curve_from_spectrum
 from illuminant.errors import DataError, ImageError, suggestion
 from illuminant.quantities import FITTING, QUANTITIES
@@ -77,6 +78,8 @@ class Resolver:
         table, bad = self._kind(KINDS_OF_MATERIAL, raw, path)
         if table is None:
             return None
+        if table.kind == "named":
+            return self._named(name, table, bad, path)
         entry: dict[str, Any] = {"name": name, "kind": table.kind}
         emission = None
         if table.kind == "diffuse":
@@ -86,13 +89,15 @@ class Resolver:
         elif table.kind == "conductor":
             for part in ("n", "k"):
                 entry[part] = self._part_of(table, bad, "metal", part, path)
-            entry["roughness"] = float(table.roughness)
+            entry["finish"] = self._finish(table, raw, bad, path, table.metal or "")
         elif table.kind == "dielectric":
             entry["n"] = self._part_of(table, bad, "medium", "n", path)
-            entry["roughness"] = float(table.roughness)
+            entry["finish"] = self._finish(table, raw, bad, path)
             entry["absorption"] = self._spectrum(table, bad, "absorption", "absorption", path)
             entry["dispersion"] = table.dispersion
             self._one_way(raw, ("medium", "n"), path)
+        elif table.kind == "coated":
+            entry |= self._coated(table, raw, bad, path)
         else:
             black = 0.0 if table.reflectance is None else table.reflectance
             entry["kind"] = "diffuse"
@@ -101,10 +106,90 @@ class Resolver:
                 "spectrum": self._spectrum(table, bad, "spectrum", "emission", path),
                 "quantity": self._quantity(table, raw, "emitter", path),
                 "sides": table.sides,
+                "distribution": self._distribution(table, raw, path),
             }
         if table.kind == "conductor":
             self._conductor_form(raw, path)
         return None if len(self.report.problems) > before else Material(entry, emission)
+
+    def _named(self, name: str, table: Any, bad: set[str], path: Path) -> Material | None:
+        """A material in words, by the table of the scene file that they stand for."""
+        if "name" in bad:
+            return None
+        try:
+            return self.material(name, materials.find(table.name))
+        except DataError as error:
+            self.report.add((*path, "name"), error.message, kind="unknown-material")
+            return None
+
+    def _finish(
+        self, table: Any, raw: dict[str, Any], bad: set[str], path: Path, material: str = ""
+    ) -> dict[str, Any]:
+        """The relief of a surface, by its own keys or by the name of a finish."""
+        shape = table.distribution
+        grain = None if table.grain is None else [float(value) for value in table.grain]
+        if grain is not None and not any(grain) and "grain" not in bad:
+            self.report.add((*path, "grain"), "must have a length", kind="direction")
+        if table.finish is None or "finish" in bad:
+            across = table.roughness if table.roughness_across is None else table.roughness_across
+            sigma = None if table.sigma_nm is None else float(table.sigma_nm)
+            slope = [float(table.roughness), float(across)]
+            return {"slope": slope, "sigma_nm": sigma, "shape": shape, "grain": grain}
+        for key in ("roughness", "roughness_across", "sigma_nm"):
+            if key in raw:
+                self.report.add(
+                    (*path, key), f"is given twice: finish brings its own {key}", kind="exactly-one"
+                )
+        try:
+            found = finishes.finish(table.finish, material)
+        except DataError as error:
+            self.report.add((*path, "finish"), error.message, kind="unknown-finish")
+            return {"slope": [0.0, 0.0]}
+        sigma = None if found.sigma_nm is None else max(found.sigma_nm)
+        return {"slope": list(found.slope), "sigma_nm": sigma, "shape": shape, "grain": grain}
+
+    def _coated(self, table: Any, raw: dict[str, Any], bad: set[str], path: Path) -> dict[str, Any]:
+        """A vehicle over a pigment or metal."""
+        if "medium" in raw and "n" in raw:
+            self.report.add((*path, "n"), "is given twice: medium brings its own n", kind="exactly-one")
+        if table.medium is not None:
+            index = self._part_of(table, bad, "medium", "n", path)
+        else:
+            index = self._spectrum(table, bad, "n", "n", path, 1.5)
+        entry: dict[str, Any] = {"n": index, "finish": self._finish(table, raw, bad, path)}
+        if "pigment" in raw and "reflectance" in raw:
+            message = "is given twice: it follows from the reflectance of the finished paint"
+            self.report.add((*path, "pigment"), message, kind="exactly-one")
+        elif not {"pigment", "reflectance", "metal"} & set(raw):
+            message = "pigment, reflectance or metal is missing"
+            self.report.add(path, message, 'for example reflectance = "ColorChecker/red"', "missing-key")
+        if "reflectance" in raw:
+            paint = self._spectrum(table, bad, "reflectance", "reflectance", path)
+            entry["pigment"] = None if paint is None or index is None else materials.pigment_of(paint, index)
+        else:
+            entry["pigment"] = self._spectrum(table, bad, "pigment", "reflectance", path, 0.0)
+        entry["film"] = None
+        if ("absorption" in raw) != ("thickness" in raw):
+            missing = "thickness" if "absorption" in raw else "absorption"
+            self.report.add(path, f"{missing} is missing: the other key goes with it", kind="missing-key")
+        elif table.thickness is not None:
+            entry["film"] = {
+                "absorption": self._spectrum(table, bad, "absorption", "absorption", path),
+                "thickness": float(table.thickness) * self.unit_m,
+            }
+        entry["flakes"] = None
+        if table.metal is not None:
+            entry["flakes"] = {
+                part: self._part_of(table, bad, "metal", part, path) for part in ("n", "k")
+            } | {
+                "slope": float(table.metal_roughness),
+                "coverage": float(table.coverage),
+            }
+        else:
+            for key in ("metal_roughness", "coverage"):
+                if key in raw:
+                    self.report.add((*path, key), "goes with metal", kind="unknown-key")
+        return entry
 
     def _conductor_form(self, raw: dict[str, Any], path: Path) -> None:
         if "metal" in raw:
@@ -132,7 +217,9 @@ class Resolver:
     def _part_of(self, table: Any, bad: set[str], whole: str, part: str, path: Path) -> Spectrum | None:
         """n or k, from its own key or from the metal or medium that is named."""
         name = getattr(table, whole)
-        if name is None or whole in bad:
+        if whole in bad:
+            return None
+        if name is None:
             return self._spectrum(table, bad, part, part, path)
         metals = [entry.removesuffix(".k") for entry in spectra.names("k")]
         media = [
@@ -172,7 +259,14 @@ class Resolver:
             entry["spectrum"] = self._spectrum(table, bad, "spectrum", "emission", path)
             if table.kind != "directional":
                 entry["position"] = self._lengths(table.position)
-            if table.kind != "point":
+            if table.kind == "point":
+                entry["distribution"] = self._distribution(table, raw, path)
+                down = [-float(axis == self.up) for axis in "xyz"]
+                axis = down if table.axis is None else [float(value) for value in table.axis]
+                entry["axis"] = axis
+                if "axis" in raw and not any(axis) and "axis" not in bad:
+                    self.report.add((*path, "axis"), "must have a length", kind="direction")
+            else:
                 length = math.hypot(*table.direction)
                 entry["direction"] = [value / (length or 1.0) for value in table.direction]
                 if "direction" not in bad and length < 1e-30:
@@ -188,6 +282,27 @@ class Resolver:
                     )
         entry["quantity"] = self._quantity(table, raw, source, path)
         return None if len(self.report.problems) > before else entry
+
+    def _distribution(self, table: Any, raw: dict[str, Any], path: Path) -> dict[str, Any] | None:
+        """How intensity depends on direction, or None."""
+        if "cosine_power" in raw and "distribution" in raw:
+            self.report.add(
+                (*path, "distribution"), "is given twice: cosine_power says it too", kind="exactly-one"
+            )
+        if table.cosine_power is not None:
+            return {"cosine_power": float(table.cosine_power)}
+        if table.distribution is None:
+            return None
+        pairs = [[float(angle), float(value)] for angle, value in table.distribution]
+        angles = [angle for angle, _ in pairs]
+        growing = all(a < b for a, b in itertools.pairwise(angles))
+        if angles[0] != 0.0 or not growing or angles[-1] > 180.0:
+            message = "must have angles that grow from 0 to at most 180 degrees"
+            self.report.add((*path, "distribution"), message, kind="range")
+        elif min(value for _, value in pairs) < 0.0 or not any(value for _, value in pairs):
+            message = "must have values that are not negative, and one above 0"
+            self.report.add((*path, "distribution"), message, kind="range")
+        return {"table": pairs}
 
     def _environment(
         self, table: Any, raw: dict[str, Any], bad: set[str], name: str, path: Path
@@ -356,7 +471,7 @@ def in_place(description: Mapping[str, Any]) -> dict[str, Any]:
         Spectrum(curve["name"], curve["wavelengths"], curve["values"], curve["outside"])
         for curve in description["curves"]
     ]
-    keys = ("reflectance", "transmittance", "n", "k", "absorption", "spectrum")
+    keys = ("reflectance", "transmittance", "pigment", "n", "k", "absorption", "spectrum")
 
     def walk(value: Any) -> Any:
         if isinstance(value, dict):

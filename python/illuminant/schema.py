@@ -30,6 +30,7 @@ __all__ = [
     "MAX_PIXELS",
     "Box",
     "Camera",
+    "Coated",
     "Conductor",
     "Dielectric",
     "Diffuse",
@@ -39,6 +40,7 @@ __all__ = [
     "Environment",
     "Filter",
     "MeshTable",
+    "Named",
     "Object",
     "Point",
     "Rectangle",
@@ -59,6 +61,9 @@ MAX_PIXELS = 2**26
 def quantity(name: str, example: str) -> Any:
     """A quantity key: positive, and optional here because exactly one of those that fit is required."""
     return Field(None, gt=0, description=QUANTITIES[name], examples=[example])
+
+
+Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 
 
 class SpectrumTable(Table):
@@ -199,7 +204,27 @@ class Conductor(Table):
     n: SpectrumValue | None = key("index of refraction", '"copper.n"', None)
     k: SpectrumValue | None = key("extinction coefficient", '"copper.k"', None)
     roughness: Fraction = key(
-        "root mean square slope of the microfacets (Beckmann's m); 0 is a mirror", "0.2", 0.0
+        "slope of the microfacets, Beckmann's m = 2σ/τ, or GGX's α; 0 is a mirror", "0.2", 0.0
+    )
+    roughness_across: Fraction | None = key(
+        "the same across the grain, where it differs; `roughness` is then along the grain", "0.3", None
+    )
+    sigma_nm: Annotated[float, Field(ge=0, le=1e6)] | None = key(
+        "root mean square height of the relief, in nm, of which part of the light stays coherent; default far above a "
+        "wavelength",
+        "150.0",
+        None,
+    )
+    grain: Vector | None = key(
+        "direction in the world along which the grain runs, for `roughness_across`", "[1.0, 0.0, 0.0]", None
+    )
+    distribution: Literal["beckmann", "ggx"] = key(
+        "distribution of slopes: Gaussian, or with long tails", '"ggx"', "beckmann"
+    )
+    finish: str | None = key(
+        "a finish by name instead of the keys above, such as circular mill, polished, satin",
+        '"circular mill"',
+        None,
     )
 
 
@@ -209,7 +234,27 @@ class Dielectric(Table):
     kind: Literal["dielectric"] = key("the kind of material", '"dielectric"')
     medium: str | None = key("name of a medium of the library, whose n is used", '"BK7"', None)
     n: SpectrumValue | None = key("index of refraction", "1.5", None)
-    roughness: Fraction = key("root mean square slope of the microfacets; 0 is smooth", "0.1", 0.0)
+    roughness: Fraction = key("slope of the microfacets, as of a conductor; 0 is smooth", "0.1", 0.0)
+    roughness_across: Fraction | None = key(
+        "the same across the grain, where it differs; `roughness` is then along the grain", "0.3", None
+    )
+    sigma_nm: Annotated[float, Field(ge=0, le=1e6)] | None = key(
+        "root mean square height of the relief, in nm, of which part of the light stays coherent; default far above a "
+        "wavelength",
+        "150.0",
+        None,
+    )
+    grain: Vector | None = key(
+        "direction in the world along which the grain runs, for `roughness_across`", "[1.0, 0.0, 0.0]", None
+    )
+    distribution: Literal["beckmann", "ggx"] = key(
+        "distribution of slopes: Gaussian, or with long tails", '"ggx"', "beckmann"
+    )
+    finish: str | None = key(
+        "a finish by name instead of the keys above, such as circular mill, polished, satin",
+        '"circular mill"',
+        None,
+    )
     absorption: SpectrumValue | None = key(
         "absorption coefficient of the inside, in 1/m (always, whatever `length_unit` is); default none",
         "{ wavelengths_nm = [380.0, 780.0], values = [2.0, 0.5] }",
@@ -218,6 +263,64 @@ class Dielectric(Table):
     dispersion: bool = key(
         "whether n changes with wavelength (false: its value at 589.3 nm is used)", "false", True
     )
+
+
+class Coated(Table):
+    """A dielectric vehicle over a pigment or metal: paint, plastic, glaze, varnish, metal flake.
+
+    The vehicle reflects at its surface; what enters is scattered by the pigment (`pigment`, or `reflectance` of the
+    finished paint) or reflected by metal (`metal`), and returns through the surface. Paint and plastic have a pigment;
+    lacquered metal has `metal` with a coverage of 1; metal flake has both.
+    """
+
+    kind: Literal["coated"] = key("the kind of material", '"coated"')
+    medium: str | None = key("name of a medium of the library, whose n the vehicle has", '"water"', None)
+    n: SpectrumValue | None = key("index of refraction of the vehicle; default 1.5", "1.5", None)
+    roughness: Fraction = key("slope of the facets of its surface; 0 is gloss", "0.1", 0.0)
+    roughness_across: Fraction | None = key(
+        "the same across the grain, where it differs; `roughness` is then along the grain", "0.3", None
+    )
+    sigma_nm: Annotated[float, Field(ge=0, le=1e6)] | None = key(
+        "root mean square height of the relief, in nm, of which part of the light stays coherent; default far above a "
+        "wavelength",
+        "150.0",
+        None,
+    )
+    grain: Vector | None = key(
+        "direction in the world along which the grain runs, for `roughness_across`", "[1.0, 0.0, 0.0]", None
+    )
+    distribution: Literal["beckmann", "ggx"] = key(
+        "distribution of slopes: Gaussian, or with long tails", '"ggx"', "beckmann"
+    )
+    finish: str | None = key(
+        "a finish by name instead of the keys above, such as circular mill, polished, satin",
+        '"circular mill"',
+        None,
+    )
+    pigment: SpectrumValue | None = key(
+        "reflectance of the pigment for diffuse light in the vehicle, 0 to 1", "0.8", None
+    )
+    reflectance: SpectrumValue | None = key(
+        "measured reflectance of the finished paint, surface included, 0 to 1, instead of `pigment` (Saunderson)",
+        '"ColorChecker/red"',
+        None,
+    )
+    absorption: SpectrumValue | None = key(
+        "absorption coefficient of the vehicle, in 1/m; default none", "3000.0", None
+    )
+    thickness: Annotated[float, Field(ge=0, le=1e9)] | None = key(
+        "thickness of the vehicle, in length units; goes with `absorption`", "0.0001", None
+    )
+    metal: str | None = key("name of a metal of the library, in the vehicle or under it", '"copper"', None)
+    metal_roughness: Fraction = key("slope of its facets, and of how flakes lie", "0.15", 0.1)
+    coverage: Fraction = key("fraction of the area that the metal covers; 1 is a sheet", "0.4", 1.0)
+
+
+class Named(Table):
+    """A material as people know it: a metal, glass, paint, plastic or lacquer with a finish, in words."""
+
+    kind: Literal["named"] = key("the kind of material", '"named"')
+    name: str = key("what it is, then its finish, after a comma", '"copper, circular mill"')
 
 
 class ThinFilter(Table):
@@ -232,13 +335,23 @@ class ThinFilter(Table):
 
 
 class Emitter(Quantities):
-    """A surface that shines with the same radiance in all directions, and reflects as a diffuse one.
+    """A surface that shines, with the same radiance in all directions unless it says otherwise, and reflects diffusely.
 
     Exactly one quantity; `power_w` and `flux_lm` are for each object that has the material.
     """
 
     kind: Literal["emitter"] = key("the kind of material", '"emitter"')
     spectrum: SpectrumValue = key("spectrum of the light", '"A"')
+    cosine_power: Annotated[float, Field(ge=0, le=1000)] | None = key(
+        "intensity falls as this power of the cosine of the angle from the normal; 1 is a diffuse surface, the default",
+        "2.0",
+        None,
+    )
+    distribution: Annotated[list[Pair], Field(min_length=2, max_length=10000)] | None = key(
+        "intensity at angles from the normal: pairs of degrees (from 0 up) and a value to any scale, linear between",
+        "[[0.0, 100.0], [30.0, 80.0], [60.0, 10.0], [90.0, 0.0]]",
+        None,
+    )
     sides: Literal["front", "both"] = key(
         "the sides that shine; front is where the normal points", '"both"', "front"
     )
@@ -246,10 +359,23 @@ class Emitter(Quantities):
 
 
 class Point(Quantities):
-    """A lamp without size that shines equally in all directions."""
+    """A lamp without size that shines equally in all directions, or as a luminaire's measured distribution says."""
 
     kind: Literal["point"] = key("the kind of light", '"point"')
     position: Vector = key("position, in length units", "[0.0, 2.0, 0.0]")
+    axis: Vector | None = key(
+        "direction of the axis of `cosine_power` or `distribution`, away from the lamp; default down",
+        "[0.0, -1.0, 0.0]",
+        None,
+    )
+    cosine_power: Annotated[float, Field(ge=0, le=1000)] | None = key(
+        "intensity falls as this power of the cosine of the angle from the axis", "2.0", None
+    )
+    distribution: Annotated[list[Pair], Field(min_length=2, max_length=10000)] | None = key(
+        "intensity at angles from the axis: pairs of degrees (from 0 up) and a value to any scale, linear between",
+        "[[0.0, 100.0], [30.0, 80.0], [60.0, 10.0], [90.0, 0.0]]",
+        None,
+    )
     spectrum: SpectrumValue = key("spectrum of the light", '"LED-B3"')
 
 
@@ -302,13 +428,15 @@ class Environment(Quantities):
     )
 
 
-MaterialValue = Diffuse | Conductor | Dielectric | ThinFilter | Emitter
+MaterialValue = Diffuse | Conductor | Dielectric | Coated | Named | ThinFilter | Emitter
 LightValue = Point | Spot | Directional | Environment
 
 KINDS_OF_MATERIAL: dict[str, type[Table]] = {
     "diffuse": Diffuse,
     "conductor": Conductor,
     "dielectric": Dielectric,
+    "coated": Coated,
+    "named": Named,
     "filter": ThinFilter,
     "emitter": Emitter,
 }

@@ -52,6 +52,7 @@ def test_the_description_is_in_metres_and_has_what_the_core_reads():
         "spectrum": 1,
         "quantity": {"kind": "flux_lm", "value": 800.0},
         "sides": "front",
+        "distribution": None,
     }
     assert [curve["name"] for curve in description["curves"]] == ["0.5", "A", "D65"]
     assert description["curves"][0] == {

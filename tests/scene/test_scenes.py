@@ -18,6 +18,7 @@ NAMES = [
     "cornell-fl11",
     "demo",
     "environment",
+    "finishes",
     "metamers",
     "prism",
     "two-filters",

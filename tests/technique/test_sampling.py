@@ -69,6 +69,7 @@ SCENES = [
     "cornell.toml",
     "demo.toml",
     "environment.toml",
+    "finishes.toml",
     "metamers.toml",
     "prism.toml",
     "two-filters.toml",
