@@ -63,9 +63,9 @@ fn worst(model: &General<4>, site: &Site<4>, angles: &[f64]) -> (f64, f64, f64) 
         let mut random = Random::new(3);
         for _ in 0..3_000 {
             let Some(drawn) = model.sample(&incidence, random.singles(), None) else { continue };
-            for lane in 0..4 {
-                let n2 = if drawn.transmitted { squeeze[lane] } else { 1.0 };
-                weight = weight.max(f64::from(drawn.weight[lane]) * n2);
+            for (value, squeeze) in drawn.weight.0.iter().zip(squeeze) {
+                let n2 = if drawn.transmitted { squeeze } else { 1.0 };
+                weight = weight.max(f64::from(*value) * n2);
             }
         }
     }

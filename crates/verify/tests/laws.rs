@@ -64,6 +64,7 @@ fn laws(found: &Audit) -> [(&'static str, bool, f64); 4] {
 }
 
 #[test]
+#[allow(clippy::print_stdout)] // the counter-examples are kept in the test's output
 fn every_model_keeps_what_it_claims_and_breaks_what_it_does_not() {
     let question = Question {
         wavelengths_nm: vec![420.0, 550.0, 680.0],
