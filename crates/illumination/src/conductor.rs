@@ -145,6 +145,17 @@ impl<const N: usize> Conductor<N> {
         Some(Seen { relief, v, coherent, mirror, several: several * (1.0 - rest), rest })
     }
 
+    /// The mean reflectance of the first of several facets: at two angles to either side of the mean cosine, because F is convex.
+    #[inline(always)]
+    fn outer(&self, at: &Incidence<'_, N>, relief: &MetalRelief, v: Vec3) -> Lanes<N> {
+        // The spread of that cosine, by walks over Gaussian reliefs.
+        let spread = 0.2 * relief.steepest() as f32;
+        let cos = relief.first_cosine(v);
+        let near = at.near.lanes;
+        let [low, high] = [(cos - spread).max(0.0), (cos + spread).min(1.0)];
+        (self.fresnel.reflectance(low, near) + self.fresnel.reflectance(high, near)) * 0.5
+    }
+
     /// The bidirectional reflectance of scattered light and the density of its directions, with both vectors above the surface.
     #[inline(always)]
     fn scattered(&self, at: &Incidence<'_, N>, seen: &Seen<'_, N>, l: Vec3) -> (Lanes<N>, f32) {
@@ -159,8 +170,7 @@ impl<const N: usize> Conductor<N> {
         let [two, three, more] = multiple.values;
         let mean = if at.near.mean == 1.0 { self.mean } else { self.fresnel.mean(at.near.lanes) };
         // The first and the last facet are met at angles of their own, those between at any.
-        let outer = self.fresnel.reflectance(relief.first_cosine(v), at.near.lanes)
-            * self.fresnel.reflectance(relief.first_cosine(l), at.near.lanes);
+        let outer = self.outer(at, relief, v) * self.outer(at, relief, l);
         let several = outer * mean.map(|f| two + f * (three + f * more));
         let mut f = self.fresnel.reflectance(cos, at.near.lanes) * shape + several;
         if let Some((coherence, a)) = &seen.coherent {

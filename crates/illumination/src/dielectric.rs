@@ -180,8 +180,10 @@ impl<const N: usize> Dielectric<N> {
         let mut visible = 0.0;
         let reflects = l.z > 0.0;
         if reflects {
-            let h = (v + l).normalize_or_zero();
-            let cos = v.dot(h);
+            // The cosine from the length of V + L, which is the same for both: near the critical angle F hangs on its last digits.
+            let sum = v + l;
+            let cos = 0.5 * sum.length();
+            let h = sum.normalize_or_zero();
             if h.z > 0.0 && cos > 0.0 {
                 let boundary = Boundary::new(at, self.dispersive, at.hero_lane, cos);
                 let ha = h.to_array();

@@ -171,12 +171,12 @@ fn no_light_is_made_and_what_is_claimed_is_kept() {
         let drawn = by_drawing(&case.model, &case.site, case.to_viewer, 50_000, i as u64);
         for lane in case.site.lanes() {
             let (total, drawn) = (exact.total()[lane], drawn.albedo.total()[lane]);
-            assert!(total < 1.0 + 2e-3, "{}: {exact:?}", case.name);
+            // Tables of multiple scattering are those of the representative index.
+            let allowed = if case.name.starts_with("dispersive") { 8e-3 } else { 2e-3 };
+            assert!(total < 1.0 + allowed, "{}: {exact:?}", case.name);
             assert!((drawn / total - 1.0).abs() < 5e-3, "{}: drawn {drawn}, integrated {total}", case.name);
             if case.keeps_all {
                 assert!(case.model.claims().equilibrium);
-                // Tables of multiple scattering are those of the representative index.
-                let allowed = if case.name.starts_with("dispersive") { 8e-3 } else { 2e-3 };
                 assert!((total - 1.0).abs() < allowed, "{}: {exact:?}", case.name);
             }
         }
