@@ -149,7 +149,7 @@ impl<const N: usize> Conductor<N> {
     #[inline(always)]
     fn outer(&self, at: &Incidence<'_, N>, relief: &MetalRelief, v: Vec3) -> Lanes<N> {
         // The spread of that cosine, by walks over Gaussian reliefs.
-        let spread = 0.2 * relief.steepest() as f32;
+        let spread = 0.2 * relief.steepest();
         let cos = relief.first_cosine(v);
         let near = at.near.lanes;
         let [low, high] = [(cos - spread).max(0.0), (cos + spread).min(1.0)];
