@@ -1,10 +1,11 @@
 """Images whose colours can be trusted: from measured lamps and materials to a calibrated display.
 
-The six names that most people need are here; everything else lives in the module of its concern
+The seven names that most people need are here; everything else lives in the module of its concern
 (`illuminant.spectra`, `illuminant.image`, `illuminant.errors` and so on).
 
     load(path)            read a scene file (`illuminant.scene.Scene`)
     render(scene, ...)    make an `Image` of a scene or of a scene file
+    compare(scene, ...)   one scene by every technique and illumination model
     diff(a, b)            CIEDE2000 and FLIP between two images
     audit(material)       where the light goes that reaches a material, and which laws its model keeps
     Scene, Image          what the first two return
@@ -26,6 +27,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from illuminant.auditing import audit
+    from illuminant.comparison import compare
     from illuminant.difference import diff
     from illuminant.errors import (
         DataError,
@@ -54,6 +56,7 @@ __all__ = [
     "UsageError",
     "__version__",
     "audit",
+    "compare",
     "diff",
     "load",
     "render",
@@ -72,6 +75,7 @@ _HOME = {
     "SceneError": "errors",
     "UsageError": "errors",
     "audit": "auditing",
+    "compare": "comparison",
     "diff": "difference",
     "load": "scene",
     "render": "rendering",

@@ -5,7 +5,7 @@ interpreter. Users find all of this under friendlier names in the modules of the
 """
 
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias, TypedDict
+from typing import Any, Literal, TypeAlias, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -343,6 +343,9 @@ class Scene:
         """Where a point of the world appears, in pixels; None behind the eye."""
     def sees_anything(self) -> bool:
         """Whether any object or surroundings lie in the camera's view."""
+
+def pairs() -> list[tuple[str, str, Literal["sensible", "warned", "refused"], str]]:
+    """Every technique with every illumination model: names, verdict, reason."""
 
 class Render:
     """A render under way: runs follow each other, and the film accumulates."""

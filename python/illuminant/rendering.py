@@ -385,7 +385,7 @@ def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
         76
     """
     channels = 4 + 2 * (settings.replicates > 1)
-    channels += sum({"depth": 2, "samples": 1}.get(name, 3) for name in settings.layers)
+    channels += sum({"depth": 2, "samples": 1, "terms": 15}.get(name, 3) for name in settings.layers)
     channels += 3 * lamps if settings.lamps else 0
     if settings.keep_spectra:
         channels += _lanes(settings.sampling)
@@ -470,6 +470,9 @@ def render(
     lamps: bool | None = None,
     time: str | float | None = None,
     error: str | float | None = None,
+    ambient: float | None = None,
+    interpolation: str | None = None,
+    shadows: bool | None = None,
     progress: OnProgress | None = None,
     on_partial: Callable[[Image], object] | None = None,
 ) -> Image:
@@ -490,11 +493,15 @@ def render(
             threads.
         threads: default 0, one for each processor.
         filter: reconstruction filter and its radius in pixels; default `("gaussian", 1.5)`.
-        layers: auxiliary images: `depth`, `normal`, `albedo`, `samples`.
+        layers: auxiliary images: `depth`, `normal`, `albedo`, `samples`; of scanline techniques also `terms`, the
+            parts `ambient`, `diffuse`, `specular`, `transmitted`, `emitted`.
         keep_spectra: keep the spectral lanes of every pixel as the layer `spectra`.
         lamps: a layer `lamp:NAME` for the light of each lamp.
         time: end when this time is up: seconds, or `"30s"`, `"5m"`.
         error: end at this relative standard error: a fraction, or `"1%"`.
+        ambient: ambient light of scanline techniques; default 0.15 of what lamps make of a white diffuser.
+        interpolation: where scanline techniques interpolate; default `object`, or `screen`.
+        shadows: whether scanline techniques find shadows; default False.
         progress: called about ten times a second with a `Progress`; returning False ends the render with what
             is done.
         on_partial: called after each range with the image so far.
@@ -529,6 +536,9 @@ def render(
         lamps=lamps,
         time=time,
         error=error,
+        ambient=ambient,
+        interpolation=interpolation,
+        shadows=shadows,
     )
     _log_warnings(job)
     for _ in job.passes(progress):

@@ -185,6 +185,16 @@ class Render(Table):
         "longest path in segments: 1 shows lamps only, 2 direct light; default no limit", "16", None
     )
     seed: Annotated[int, Field(ge=0, lt=2**63)] | None = key("seed of the random numbers", "1", None)
+    ambient: Annotated[float, Field(ge=0, le=10)] | None = key(
+        "ambient light of scanline techniques, as a fraction of what lamps would make of a white diffuser in the "
+        "middle of the scene",
+        "0.15",
+        None,
+    )
+    interpolation: Literal["object", "screen"] | None = key(
+        "where scanline techniques interpolate", '"object"', None
+    )
+    shadows: bool | None = key("whether scanline techniques find shadows", "true", None)
     exposure: Positive | None = key("factor from luminance in cd/m² to the display's 0 to 1", "0.01", None)
     filter: Filter | None = key("reconstruction filter", '{ kind = "gaussian", radius = 1.5 }', None)
 

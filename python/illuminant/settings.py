@@ -24,8 +24,13 @@ from illuminant.errors import UsageError
 
 __all__ = ["LAYERS", "Settings", "duration", "filter_of", "fraction", "pixel", "resolve", "size_of"]
 
-LAYERS = ("depth", "normal", "albedo", "samples")
+LAYERS = ("depth", "normal", "albedo", "samples", "terms")
 """Auxiliary images that can be asked for by name."""
+
+SCANLINE = ("constant", "gouraud", "phong")
+"""The techniques that scan polygons."""
+
+INTERPOLATIONS = ("object", "screen")
 
 FILTERS = ("gaussian", "box", "tent")
 
@@ -53,6 +58,10 @@ class Settings:
         lamps: whether there is a layer for each lamp.
         time: seconds after which to end, or None.
         error: relative standard error at which to end (0.01 is 1 %), or None.
+        ambient: ambient light of the scanline techniques, as a fraction of what the lamps would make of a white
+            diffuser in the middle of the scene.
+        interpolation: where they interpolate: `object` or `screen`.
+        shadows: whether they look for what stands between a surface and a lamp.
     """
 
     technique: str = "path"
@@ -69,6 +78,9 @@ class Settings:
     lamps: bool = False
     time: float | None = None
     error: float | None = None
+    ambient: float = 0.15
+    interpolation: str = "object"
+    shadows: bool = False
 
     @property
     def replicates(self) -> int:
@@ -92,6 +104,9 @@ class Settings:
                 "filter": {"kind": kind, "radius": radius},
                 "layers": layers,
                 "replicates": self.replicates,
+                "ambient": self.ambient,
+                "interpolation": self.interpolation,
+                "shadows": self.shadows,
             }
         )
 
@@ -107,7 +122,11 @@ class Settings:
             "filter": f"{kind}:{radius:g}",
             "replicates": self.replicates,
             **({} if self.error is None else {"error": self.error}),
+            **(self._scanline() if self.technique in SCANLINE else {}),
         }
+
+    def _scanline(self) -> dict[str, Any]:
+        return {"ambient": self.ambient, "interpolation": self.interpolation, "shadows": self.shadows}
 
 
 def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings:
@@ -137,6 +156,12 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         chosen["time"] = duration(chosen["time"])
     if "error" in chosen:
         chosen["error"] = fraction(chosen["error"])
+    if chosen.get("interpolation", "object") not in INTERPOLATIONS:
+        raise UsageError(f"--interpolation {chosen['interpolation']}: expected object or screen.")
+    if "ambient" in chosen and not (
+        isinstance(chosen["ambient"], (int, float)) and 0 <= chosen["ambient"] <= 10
+    ):
+        raise UsageError(f"--ambient {chosen['ambient']}: expected a fraction from 0 to 10, such as 0.15.")
     if "layers" in chosen:
         chosen["layers"] = _layers(chosen["layers"])
     for name, least, most in (

@@ -96,6 +96,8 @@ struct Tables<const N: usize> {
     chances: [f32; STEPS + 1],
     /// C / D̄ in lanes.
     colour: Lanes<N>,
+    /// D̄ in lanes.
+    mean: Lanes<N>,
     /// The largest C, as one number.
     brightness: f32,
 }
@@ -215,7 +217,8 @@ impl<const N: usize> Coated<N> {
                 chances[i] = smooth[i] * chance * under.coverage;
             }
         }
-        let mut tables = Tables { flakes, chances, colour: Lanes::splat(1.0), brightness: 1.0 };
+        let mut tables =
+            Tables { flakes, chances, colour: Lanes::splat(1.0), mean: Lanes::default(), brightness: 1.0 };
         let mut mean = Lanes::default();
         let steps = 2 * STEPS;
         for i in 0..steps {
@@ -223,6 +226,7 @@ impl<const N: usize> Coated<N> {
             let way = Way { flakes: self.way(at, Some(&tables), way(z).v).flakes, ..way(z) };
             mean += Self::diffuse(&way) * (2.0 * z / steps as f32);
         }
+        tables.mean = mean;
         let covered = body.metal.as_ref().map_or(0.0, |m| m.coverage);
         let metal = body.metal.as_ref().map_or_else(Lanes::default, |m| m.mean);
         let several = |depth: f32| {
@@ -271,6 +275,27 @@ impl<const N: usize> Coated<N> {
             f += facets * through * passed * (under.coverage / (eta * eta));
         }
         f
+    }
+
+    /// The part of [`Self::eval`] that comes from the pigment.
+    pub(crate) fn body(&self, at: &Incidence<'_, N>, to_light: Vec3) -> Lanes<N> {
+        let flip = 1f32.copysign(at.to_viewer.z);
+        let (v, l) = (at.to_viewer * flip, to_light * flip);
+        if !(l.z > 0.0 && v.z > 0.0) {
+            return Lanes::default();
+        }
+        let tables = self.tables(at);
+        let (a, b) = (self.way(at, Some(tables), v), self.way(at, Some(tables), l));
+        Self::diffuse(&a) * Self::diffuse(&b) * tables.colour * a.passed * b.passed * FRAC_1_PI
+    }
+
+    /// The share of light that comes back in all.
+    pub(crate) fn reflectance(&self, at: &Incidence<'_, N>) -> Lanes<N> {
+        let tables = self.tables(at);
+        let a = self.way(at, Some(tables), at.to_viewer * 1f32.copysign(at.to_viewer.z));
+        let metal = self.0.body.metal.as_ref().map_or_else(Lanes::default, |m| m.mean);
+        let inner = a.flakes * metal + Self::diffuse(&a) * tables.colour * tables.mean;
+        a.reflected + inner * a.passed * a.passed
     }
 
     /// Where directions are drawn from.

@@ -243,6 +243,16 @@ impl<const N: usize> Conductor<N> {
         (pdf > 0.0).then(|| scattered(l, f * (l.z / pdf), Some(pdf)))
     }
 
+    /// The share of light that is reflected at all, facets met once: near what it is with several.
+    pub(crate) fn reflectance(&self, at: &Incidence<'_, N>) -> Lanes<N> {
+        let cos = at.to_viewer.z.abs();
+        let cos = self
+            .relief
+            .as_deref()
+            .map_or(cos, |relief| relief.first_cosine(Vec3::new(at.to_viewer.x, at.to_viewer.y, cos)));
+        self.fresnel.reflectance(cos, at.near.lanes)
+    }
+
     /// The share of light that is reflected as by a mirror.
     #[inline(always)]
     pub(crate) fn mirror_weight(&self, at: &Incidence<'_, N>, cos: f32) -> Lanes<N> {

@@ -441,11 +441,14 @@ impl<const N: usize> Dielectric<N> {
 
     // --- as the outer boundary of a vehicle, with the viewer above ----------------------------------------------------
 
-    /// The share of power that is reflected, in lanes.
+    /// The share of power that is reflected, in lanes; from below, that of a smooth boundary.
     #[inline(always)]
     pub(crate) fn reflectance(&self, at: &Incidence<'_, N>) -> Lanes<N> {
         let v = at.to_viewer;
-        let smooth = (*at.far.lanes / *at.near.lanes).map(|eta| dielectric(v.z, eta));
+        let smooth = (*at.far.lanes / *at.near.lanes).map(|eta| dielectric(v.z.abs(), eta));
+        if v.z < 0.0 {
+            return smooth;
+        }
         let Some(seen) = self.seen(at) else { return smooth };
         let grid = &seen.pair.relief.balance.grids[0];
         match (&seen.coherent, seen.pair.coherence()) {

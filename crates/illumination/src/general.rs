@@ -8,8 +8,8 @@
 use crate::coated::{Body, Coated, MetalUnder, Vehicle};
 use crate::conductor::{Conductor, Metal};
 use crate::dielectric::Dielectric;
-use crate::model::{Claims, DiscreteLobe, IlluminationModel, Incidence, Prepare, Scattered};
-use crate::{Finish, Flakes, Material, REPRESENTATIVE_NM, Spectral, Surface};
+use crate::model::{Claims, Components, DiscreteLobe, IlluminationModel, Incidence, Prepare, Scattered};
+use crate::{Finish, Flakes, Illumination, Material, REPRESENTATIVE_NM, Spectral, Surface};
 use glam::Vec3;
 use illuminant_optics::fresnel::conductor;
 use illuminant_optics::hemisphere;
@@ -88,6 +88,7 @@ impl Pass<'_> {
 impl<const N: usize> Prepare for General<N> {
     fn prepare(
         material: &Material,
+        _model: Illumination,
         brightness: f32,
         basis: &dyn Basis,
         samples: Range<usize>,
@@ -145,6 +146,19 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
             Self::Conductor(conductor) => conductor.eval(at, to_light),
             Self::Dielectric(dielectric) => dielectric.eval(at, to_light),
             Self::Coated(coated) => coated.eval(at, to_light),
+        }
+    }
+
+    fn components(&self, at: &Incidence<'_, N>, to_light: Vec3) -> Components<N> {
+        let all = self.eval(at, to_light);
+        match self {
+            Self::Diffuse { .. } => Components { diffuse: all, specular: Lanes::default() },
+            Self::Coated(coated) => {
+                let diffuse = coated.body(at, to_light);
+                // The rest may round to less than nothing.
+                Components { diffuse, specular: (all - diffuse).map(|f| f.max(0.0)) }
+            }
+            _ => Components { diffuse: Lanes::default(), specular: all },
         }
     }
 
@@ -219,6 +233,29 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
     #[inline(always)]
     fn bounds_media(&self) -> bool {
         matches!(self, Self::Dielectric(_))
+    }
+
+    fn ambient(&self, at: &Incidence<'_, N>) -> Lanes<N> {
+        let mirrored = || {
+            let lobes = self.discrete_lobes(at).into_iter().filter(|lobe| !lobe.transmitted);
+            lobes.fold(Lanes::default(), |sum, lobe| sum + lobe.weight)
+        };
+        let all = match self {
+            Self::Diffuse { brdf, .. } => return *brdf * PI,
+            Self::Filter { .. } => return Lanes::default(),
+            Self::Conductor(conductor) => conductor.reflectance(at),
+            Self::Dielectric(dielectric) => dielectric.reflectance(at),
+            Self::Coated(coated) => coated.reflectance(at),
+        };
+        (all - mirrored()).map(|rest| rest.max(0.0))
+    }
+
+    fn see_through(&self, at: &Incidence<'_, N>) -> Lanes<N> {
+        match self {
+            Self::Filter { transmittance, .. } => *transmittance,
+            Self::Dielectric(dielectric) => dielectric.reflectance(at).map(|r| 1.0 - r),
+            _ => Lanes::default(),
+        }
     }
 
     fn claims(&self) -> Claims {

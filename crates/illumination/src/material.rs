@@ -1,6 +1,6 @@
 //! What a material is, physically.
 
-use crate::Finish;
+use crate::{Finish, Overrides};
 use illuminant_spectrum::{Curve, SpectralRange};
 
 /// The wavelength whose index stands for a dielectric wherever one number must do: sodium d, 589.3 nm.
@@ -15,6 +15,8 @@ pub struct Material {
     pub surface: Surface,
     /// A direction in the world along which its grain runs, where it has one.
     pub grain: Option<[f32; 3]>,
+    /// What the historical models are told instead of what they would derive.
+    pub overrides: Vec<Overrides>,
 }
 
 /// The physics of a surface.
@@ -88,6 +90,23 @@ pub struct Flakes {
 }
 
 impl Material {
+    /// A material without a grain, and without overrides.
+    #[must_use]
+    pub fn new(name: impl Into<String>, surface: Surface) -> Self {
+        Self { name: name.into(), surface, grain: None, overrides: Vec::new() }
+    }
+
+    /// The slope m of its relief, the steeper one where it has a grain; a diffuser has none.
+    #[must_use]
+    pub fn slope(&self) -> f64 {
+        match &self.surface {
+            Surface::Diffuse { .. } | Surface::Filter { .. } => 0.0,
+            Surface::Conductor { finish, .. }
+            | Surface::Dielectric { finish, .. }
+            | Surface::Coated { finish, .. } => finish.slope[0].max(finish.slope[1]),
+        }
+    }
+
     /// A reflectance at normal incidence that stands for the material in auxiliary images and error estimates:
     /// the diffuse reflectance, a filter's transmittance, or Fresnel's of the smooth boundary (1 for a clear dielectric, which passes the rest).
     #[must_use]
@@ -135,7 +154,7 @@ impl Material {
                 }),
             },
         };
-        Self { name: self.name.clone(), surface, grain: self.grain }
+        Self { surface, ..self.clone() }
     }
 
     /// Whether light of different wavelengths parts ways when it is refracted.

@@ -1,6 +1,6 @@
 //! The trait behind which every illumination model stands.
 
-use crate::Material;
+use crate::{Illumination, Material};
 use glam::Vec3;
 use illuminant_sampling::{Basis, Lanes};
 use illuminant_spectrum::SpectralRange;
@@ -79,12 +79,26 @@ pub struct DiscreteLobe<const N: usize> {
     pub transmitted: bool,
 }
 
+/// The parts of a bidirectional function, 1/sr.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Components<const N: usize> {
+    /// From under the surface.
+    pub diffuse: Lanes<N>,
+    /// From the surface itself, and through it.
+    pub specular: Lanes<N>,
+}
+
 /// What a technique asks of a surface. All vectors are local, unit, and point away from the surface.
 ///
 /// Decisions may look at brightness, never at lanes, so that every spectral sampling follows the same paths.
 pub trait IlluminationModel<const N: usize>: Send + Sync {
     /// The bidirectional reflectance or transmittance f(v, l), 1/sr, of the continuous part: without cosine.
     fn eval(&self, at: &Incidence<'_, N>, to_light: Vec3) -> Lanes<N>;
+
+    /// The same, with what comes from under the surface by itself.
+    fn components(&self, at: &Incidence<'_, N>, to_light: Vec3) -> Components<N> {
+        Components { diffuse: Lanes::default(), specular: self.eval(at, to_light) }
+    }
 
     /// The density, 1/sr, with which [`Self::sample`] draws a direction of the continuous part.
     fn pdf(&self, at: &Incidence<'_, N>, to_light: Vec3) -> f32;
@@ -102,10 +116,14 @@ pub trait IlluminationModel<const N: usize>: Send + Sync {
     /// Whether the surface is the border of two media: light that passes through it is then in the other.
     fn bounds_media(&self) -> bool;
 
-    /// What the surface returns of light that comes evenly from everywhere and is not followed; zero for models in
-    /// equilibrium, which follow all light.
-    fn ambient(&self) -> Lanes<N> {
-        Lanes::default()
+    /// What the continuous part returns of light that comes evenly from everywhere, for techniques that do not follow it.
+    fn ambient(&self, at: &Incidence<'_, N>) -> Lanes<N>;
+
+    /// What the surface lets through, for techniques that look straight through it (Newell, Newell and Sancha 1972): the radiance behind
+    /// it is multiplied by this, and n² is left out, which two boundaries cancel.
+    fn see_through(&self, at: &Incidence<'_, N>) -> Lanes<N> {
+        let through = self.discrete_lobes(at).into_iter().filter(|lobe| lobe.transmitted);
+        through.fold(Lanes::default(), |sum, lobe| sum + lobe.weight)
     }
 
     /// The laws it claims.
@@ -114,10 +132,11 @@ pub trait IlluminationModel<const N: usize>: Send + Sync {
 
 /// How a model is made from a material: the documented rule of each model.
 pub trait Prepare: Sized {
-    /// Derives the model's coefficients in the lanes of one pass (`samples` of `basis`). `brightness` is that of
+    /// Derives the coefficients of a model in the lanes of one pass (`samples` of `basis`). `brightness` is that of
     /// [`Material::brightness`], which is the same for all passes.
     fn prepare(
         material: &Material,
+        model: Illumination,
         brightness: f32,
         basis: &dyn Basis,
         samples: Range<usize>,

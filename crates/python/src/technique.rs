@@ -1,7 +1,9 @@
 //! `technique`: renders.
 
 use crate::scene::PyScene;
-use illuminant_technique::{Progress, Render, RenderError, Settings, Vertex};
+use illuminant_illumination::Illumination;
+use illuminant_technique::pairs::{Pair, pair};
+use illuminant_technique::{Progress, Render, RenderError, Settings, Technique, Vertex};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{PyArray1, PyArray2, PyArray3, ToPyArray};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
@@ -235,6 +237,24 @@ fn wait(receiver: &std::sync::Mutex<std::sync::mpsc::Receiver<()>>) -> bool {
     receiver.recv_timeout(Duration::from_millis(100)) != Err(std::sync::mpsc::RecvTimeoutError::Timeout)
 }
 
+/// Every technique with every illumination model: names, verdict, reason.
+#[pyfunction]
+fn pairs() -> Vec<(String, String, &'static str, &'static str)> {
+    let mut all = Vec::new();
+    for &technique in Technique::ALL {
+        for &illumination in Illumination::ALL {
+            let (verdict, reason) = match pair(technique, illumination) {
+                Pair::Sensible(reason) => ("sensible", reason),
+                Pair::Warned(reason) => ("warned", reason),
+                Pair::Refused(reason) => ("refused", reason),
+            };
+            all.push((technique.to_string(), illumination.to_string(), verdict, reason));
+        }
+    }
+    all
+}
+
 pub(crate) fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add_function(wrap_pyfunction!(pairs, m)?)?;
     m.add_class::<PyRender>()
 }

@@ -168,6 +168,12 @@ impl Camera {
         picture_width / (2.0 * self.half_width)
     }
 
+    /// The unit direction of view.
+    #[must_use]
+    pub fn forward(&self) -> Vec3 {
+        self.forward.as_vec3()
+    }
+
     /// Where the eye is.
     #[must_use]
     pub fn eye(&self) -> DVec3 {

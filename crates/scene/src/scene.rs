@@ -260,7 +260,7 @@ fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Resu
         _ => None,
     };
     let grain = grain.map(|grain| unit(&place(name), "grain", grain)).transpose()?;
-    Ok(Material { name: name.clone(), surface, grain: grain.map(|grain| grain.to_array()) })
+    Ok(Material { grain: grain.map(|grain| grain.to_array()), ..Material::new(name, surface) })
 }
 
 fn unit(place: &str, key: &str, v: [f32; 3]) -> Result<Vec3, SceneError> {

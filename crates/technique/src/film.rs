@@ -7,6 +7,9 @@
 use crate::settings::{Layer, Settings};
 use std::ops::Range;
 
+/// The terms of an illumination model as layers.
+pub(crate) const TERMS: [&str; 5] = ["ambient", "diffuse", "specular", "transmitted", "emitted"];
+
 /// The smallest size that a film cannot hold, 2⁴⁷: a sample that reaches it is dropped. Below it 2³² samples can be
 /// summed without overflow.
 pub const TOO_LARGE: f32 = 140_737_488_355_328.0;
@@ -119,6 +122,18 @@ impl Film {
     /// number of spectral samples.
     #[must_use]
     pub fn new(crop: [u32; 4], settings: &Settings, lamps: &[String], spectral: usize) -> Self {
+        Self::with_tiles(crop, [settings.tile; 2], settings, lamps, spectral)
+    }
+
+    /// The same with tiles of a width and a height.
+    #[must_use]
+    pub fn with_tiles(
+        crop: [u32; 4],
+        tile: [u32; 2],
+        settings: &Settings,
+        lamps: &[String],
+        spectral: usize,
+    ) -> Self {
         let mut plan = Vec::new();
         let mut channels = 0;
         let mut push = |layer: Layer, name: String, count: usize| {
@@ -138,14 +153,15 @@ impl Film {
                 Layer::Normal => push(Layer::Normal, "normal".into(), 3),
                 Layer::Albedo => push(Layer::Albedo, "albedo".into(), 3),
                 Layer::Emission => push(Layer::Emission, "emission".into(), 1),
+                Layer::Terms => TERMS.iter().for_each(|name| push(Layer::Terms, (*name).into(), 3)),
             }
         }
-        let tile = settings.tile.clamp(1, 4096);
+        let [width, height] = tile.map(|size| size.max(1));
         let [x0, y0, x1, y1] = crop;
         let mut tiles = Vec::new();
-        for y in (y0..y1).step_by(tile as usize) {
-            for x in (x0..x1).step_by(tile as usize) {
-                let area = [x, y, (x + tile).min(x1), (y + tile).min(y1)];
+        for y in (y0..y1).step_by(height as usize) {
+            for x in (x0..x1).step_by(width as usize) {
+                let area = [x, y, x.saturating_add(width).min(x1), y.saturating_add(height).min(y1)];
                 let pixels = ((area[2] - x) * (area[3] - y)) as usize;
                 tiles.push(TileFilm {
                     area,

@@ -3,7 +3,7 @@
 use crate::passes::Light;
 use crate::wavelength::Wavelength;
 use glam::Vec3;
-use illuminant_illumination::{Index, Prepare, REPRESENTATIVE_NM, Surface};
+use illuminant_illumination::{Illumination, Index, Prepare, REPRESENTATIVE_NM, Surface};
 use illuminant_sampling::{Basis, Lanes, Role};
 use illuminant_scene::{LampForm, Scene};
 use std::ops::Range;
@@ -57,6 +57,7 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
     /// Reduces a scene to the samples of a pass. `groups` gives one lamp for each group of lamps that share a map.
     pub(crate) fn new(
         scene: &Scene,
+        illumination: Illumination,
         brightness: &[f32],
         basis: &dyn Basis,
         samples: Range<usize>,
@@ -112,7 +113,7 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
                 .materials
                 .iter()
                 .zip(brightness)
-                .map(|(material, &b)| M::prepare(material, b, basis, samples.clone(), range))
+                .map(|(material, &b)| M::prepare(material, illumination, b, basis, samples.clone(), range))
                 .collect(),
             emission: emission.collect(),
             position: lanes(&position),
@@ -130,7 +131,9 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
             samples,
         }
     }
+}
 
+impl<const N: usize, M> Pass<N, M> {
     /// The index of a medium; `None` is the open.
     #[inline(always)]
     pub fn index(&self, medium: Option<usize>) -> Index<'_, N> {
@@ -161,9 +164,7 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
     pub fn lane(&self, sample: usize) -> Option<usize> {
         self.samples.contains(&sample).then(|| sample - self.samples.start)
     }
-}
 
-impl<const N: usize, M> Pass<N, M> {
     /// The samples of the basis that are of this pass: without the wavelength of a path's own.
     #[inline(always)]
     pub fn own_samples(&self) -> Range<usize> {

@@ -10,10 +10,12 @@ use crate::filter::FilterSampler;
 use crate::lanes::Pass;
 use crate::path::{Counts, PathTracer, Primary, Probe, Query, Recorder, Vertex};
 use crate::render::RenderError;
+use crate::scanline::Scanline;
 use crate::sequence::{Sequence, mix};
+use crate::settings::Technique;
 use crate::settings::{Layer, Settings};
 use crate::wavelength::{Accompanied, Wavelength, wavelengths};
-use illuminant_illumination::{General, IlluminationModel, Prepare};
+use illuminant_illumination::{General, Historic, Illumination, IlluminationModel, Prepare};
 use illuminant_sampling::{Basis, Lanes, ToXyz, lanes_for};
 use illuminant_scene::Scene;
 use rayon::prelude::*;
@@ -42,10 +44,12 @@ pub(crate) struct TileCounts {
 pub(crate) trait TileRenderer: Send + Sync {
     /// Adds samples to a tile.
     fn tile(&self, job: &Job, tile: &mut TileFilm, samples: Range<u64>) -> TileCounts;
-    /// Follows one path again, and records all of it.
-    fn replay(&self, job: &Job, pixel: [u32; 2], sample: u64) -> Replay;
+    /// Follows one path again, and records all of it; a technique without paths has nothing to record.
+    fn replay(&self, _job: &Job, _pixel: [u32; 2], _sample: u64) -> Replay {
+        Replay::default()
+    }
     /// Follows one path and adds, for each group of lamps, what every sample of the basis brings of undispersed light.
-    fn follow(&self, job: &Job, pixel: [u32; 2], sample: u64, to: &mut Followed);
+    fn follow(&self, _job: &Job, _pixel: [u32; 2], _sample: u64, _to: &mut Followed) {}
 }
 
 /// What paths have brought.
@@ -88,24 +92,36 @@ struct Passes<const N: usize, M> {
     variants: Vec<Vec<Pass<N, M>>>,
 }
 
+/// The passes of a basis in bundles of N lanes.
+fn passes_of<const N: usize, M: Prepare>(
+    scene: &Scene,
+    illumination: Illumination,
+    basis: &dyn Basis,
+    companion: Option<Wavelength>,
+    groups: &[usize],
+    light: Light<'_>,
+) -> Vec<Pass<N, M>> {
+    let brightness: Vec<f32> =
+        scene.materials.iter().map(|material| material.brightness(scene.range) as f32).collect();
+    let total = basis.len();
+    (0..total.div_ceil(N))
+        .map(|i| i * N..((i + 1) * N).min(total))
+        .map(|samples| Pass::new(scene, illumination, &brightness, basis, samples, groups, companion, light))
+        .collect()
+}
+
 impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
     fn new(
         scene: &Scene,
+        illumination: Illumination,
         basis: &dyn Basis,
         companions: Option<&[Wavelength]>,
         depth: Option<u32>,
         groups: &[usize],
         light: Light<'_>,
     ) -> Self {
-        let brightness: Vec<f32> =
-            scene.materials.iter().map(|material| material.brightness(scene.range) as f32).collect();
-        let passes = |basis: &dyn Basis, companion: Option<Wavelength>| -> Vec<Pass<N, M>> {
-            let total = basis.len();
-            let ranges = (0..total.div_ceil(N)).map(|i| i * N..((i + 1) * N).min(total));
-            ranges
-                .map(|samples| Pass::new(scene, &brightness, basis, samples, groups, companion, light))
-                .collect()
-        };
+        let passes =
+            |basis: &dyn Basis, companion| passes_of(scene, illumination, basis, companion, groups, light);
         let variants = match companions {
             Some(all) => all.par_iter().map(|w| passes(&Accompanied::new(basis, *w), Some(*w))).collect(),
             None => vec![passes(basis, None)],
@@ -276,7 +292,7 @@ fn spectral_layers<const N: usize, M>(job: &Job, pass: &Pass<N, M>, light: &[Lan
 }
 
 /// The layers that come from what the camera sees first, and the halves.
-fn auxiliary_layers(job: &Job, primary: &Primary, sample: u64, values: &mut [f32]) {
+pub(crate) fn auxiliary_layers(job: &Job, primary: &Primary, sample: u64, values: &mut [f32]) {
     let y = values[1];
     for layer in &job.plan {
         let slots = &mut values[layer.channels.clone()];
@@ -317,25 +333,70 @@ fn same(a: &ToXyz, b: &ToXyz) -> bool {
     a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() <= 1e-9 * largest)
 }
 
+/// Renders what was asked for in bundles of N lanes.
+#[allow(clippy::too_many_arguments)]
+fn of_lanes<const N: usize>(
+    scene: &Scene,
+    (technique, illumination): (Technique, Illumination),
+    settings: &Settings,
+    basis: &dyn Basis,
+    companions: Option<&[Wavelength]>,
+    (groups, group_of): (&[usize], &[usize]),
+    light: Light<'_>,
+) -> Box<dyn TileRenderer> {
+    let depth = settings.depth;
+    match (technique.is_scanline(), illumination) {
+        (false, Illumination::General) => Box::new(Passes::<N, General<N>>::new(
+            scene,
+            illumination,
+            basis,
+            companions,
+            depth,
+            groups,
+            light,
+        )),
+        (false, _) => Box::new(Passes::<N, Historic<N>>::new(
+            scene,
+            illumination,
+            basis,
+            companions,
+            depth,
+            groups,
+            light,
+        )),
+        (true, Illumination::General) => {
+            let passes = passes_of::<N, General<N>>(scene, illumination, basis, None, groups, light);
+            Box::new(Scanline::new(scene, settings, technique, group_of, passes))
+        }
+        (true, _) => {
+            let passes = passes_of::<N, Historic<N>>(scene, illumination, basis, None, groups, light);
+            Box::new(Scanline::new(scene, settings, technique, group_of, passes))
+        }
+    }
+}
+
 /// The one place where lane-generic code is instantiated.
 pub(crate) fn renderer(
     scene: &Scene,
+    pair: (Technique, Illumination),
+    settings: &Settings,
     basis: &dyn Basis,
-    depth: Option<u32>,
-    groups: &[usize],
+    groups: (&[usize], &[usize]),
     light: Light<'_>,
 ) -> Result<Box<dyn TileRenderer>, RenderError> {
-    let companions = wavelengths(scene, basis);
+    // Only what bends light disperses it: general alone, along paths.
+    let bends = pair == (Technique::Path, Illumination::General);
+    let companions = wavelengths(scene, basis).filter(|_| bends);
     let companions = companions.as_deref();
     let samples = basis.len() + usize::from(companions.is_some());
     match lanes_for(samples).unwrap_or(32) {
-        8 => Ok(Box::new(Passes::<8, General<8>>::new(scene, basis, companions, depth, groups, light))),
+        8 => Ok(of_lanes::<8>(scene, pair, settings, basis, companions, groups, light)),
         #[cfg(not(feature = "only-8-lanes"))]
-        4 => Ok(Box::new(Passes::<4, General<4>>::new(scene, basis, companions, depth, groups, light))),
+        4 => Ok(of_lanes::<4>(scene, pair, settings, basis, companions, groups, light)),
         #[cfg(not(feature = "only-8-lanes"))]
-        16 => Ok(Box::new(Passes::<16, General<16>>::new(scene, basis, companions, depth, groups, light))),
+        16 => Ok(of_lanes::<16>(scene, pair, settings, basis, companions, groups, light)),
         #[cfg(not(feature = "only-8-lanes"))]
-        32 => Ok(Box::new(Passes::<32, General<32>>::new(scene, basis, companions, depth, groups, light))),
+        32 => Ok(of_lanes::<32>(scene, pair, settings, basis, companions, groups, light)),
         other => Err(RenderError::Setting(format!("bundles of {other} lanes are not compiled in"))),
     }
 }

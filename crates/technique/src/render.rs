@@ -2,6 +2,7 @@
 
 use crate::film::{Film, TOO_LARGE, TileFilm};
 use crate::filter::FilterSampler;
+use crate::pairs;
 use crate::passes::{Job, Light, Replay, TileCounts, TileRenderer, group_lamps, renderer};
 use crate::path::Query;
 use crate::scene_products::{products, spectral_error};
@@ -109,6 +110,21 @@ impl Render {
         let sampling: SpectralSampling = settings.sampling.parse()?;
         let technique: Technique = settings.technique.parse().map_err(RenderError::Setting)?;
         let illumination: Illumination = settings.illumination.parse().map_err(RenderError::Setting)?;
+        pairs::check(technique, illumination).map_err(RenderError::Setting)?;
+        if technique.is_scanline() && settings.layers.contains(&Layer::Lamps) {
+            return Err(RenderError::Setting(format!("{technique} does not keep lamps apart; path does")));
+        }
+        if !technique.is_scanline() && settings.layers.contains(&Layer::Terms) {
+            return Err(RenderError::Setting(
+                "only scanline techniques keep the terms of a model apart: constant, gouraud, phong".into(),
+            ));
+        }
+        if !(0.0..=10.0).contains(&settings.ambient) {
+            return Err(RenderError::Setting(format!(
+                "ambient must lie between 0 and 10, not {}",
+                settings.ambient
+            )));
+        }
         if settings.depth == Some(0) {
             return Err(RenderError::Setting("depth must be 1 or more".into()));
         }
@@ -135,9 +151,12 @@ impl Render {
         let by_lamp = settings.layers.contains(&Layer::Lamps);
         let (groups, group_of) = group_lamps(&*basis, scene.lamps.len(), by_lamp);
         let names: Vec<String> = scene.lamps.iter().map(|lamp| lamp.name.clone()).collect();
-        let film = Film::new(scene.camera.crop, &settings, &names, basis.len());
-        let (Technique::Path, Illumination::General) = (technique, illumination);
-        let renderer = pool.install(|| renderer(&scene, &*basis, settings.depth, &groups, Light::Lamps))?;
+        // A scanline keeps its width, so that edges and spans go on.
+        let tile = if technique.is_scanline() { [u32::MAX, 16] } else { [settings.tile.clamp(1, 4096); 2] };
+        let film = Film::with_tiles(scene.camera.crop, tile, &settings, &names, basis.len());
+        let pair = (technique, illumination);
+        let renderer =
+            pool.install(|| renderer(&scene, pair, &settings, &*basis, (&groups, &group_of), Light::Lamps))?;
         let white = Observer::cie_1931_2deg().xyz(&Curve::constant(1.0), scene.range);
         let albedo = scene.materials.iter().map(|material| {
             let reflectance = material.representative_reflectance(scene.range);
@@ -274,7 +293,9 @@ impl Render {
     /// Sentences on what the user should know before rendering this scene with this sampling.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        crate::warnings::warnings(&self.job.scene, &*self.basis, &self.job.settings.sampling)
+        let mut found = crate::warnings::warnings(&self.job.scene, &*self.basis, &self.job.settings.sampling);
+        found.extend(pairs::warning(&self.job.settings));
+        found
     }
 
     /// The spectral sampling.

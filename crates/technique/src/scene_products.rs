@@ -7,8 +7,9 @@
 
 use crate::filter::FilterSampler;
 use crate::passes::{Followed, Job, Light, TileRenderer, group_lamps, renderer};
-use crate::settings::{Layer, Settings};
+use crate::settings::{Layer, Settings, Technique};
 use illuminant_color::{RgbSystem, Triple};
+use illuminant_illumination::Illumination;
 use illuminant_sampling::{Basis, Comparison, OneNanometre, Part, Product, Products, SpectralError, xyz_by};
 use illuminant_scene::Scene;
 use illuminant_spectrum::Curve;
@@ -106,6 +107,17 @@ fn follow(
     sum
 }
 
+/// The model as paths see it. What a scanline technique shows are paths of two segments.
+fn along_paths(settings: &Settings) -> Option<((Technique, Illumination), Settings)> {
+    let technique: Technique = settings.technique.parse().ok()?;
+    let illumination = settings.illumination.parse().ok()?;
+    let mut settings = settings.clone();
+    if technique.is_scanline() {
+        settings.depth = Some(settings.depth.unwrap_or(2).min(2));
+    }
+    Some(((Technique::Path, illumination), settings))
+}
+
 /// What the pixels of a set show at every nm, for the kinds of lamps in `known`.
 fn probe(scene: &Arc<Scene>, settings: &Settings, known: &Products, set: Set) -> Option<Vec<Probe>> {
     let basis = OneNanometre::new(scene.range);
@@ -119,7 +131,8 @@ fn probe(scene: &Arc<Scene>, settings: &Settings, known: &Products, set: Set) ->
         .map(|l| known.kind(l).map_or(0.0, |kind| (luminance(l) / luminance(kind)) as f32))
         .collect();
     let group_of: Vec<usize> = lamps.map(|l| kind_of(l).unwrap_or(0)).collect();
-    let renderer = renderer(scene, &basis, settings.depth, &kinds, Light::Flat(&light)).ok()?;
+    let (pair, probing) = along_paths(settings)?;
+    let renderer = renderer(scene, pair, &probing, &basis, (&kinds, &group_of), Light::Flat(&light)).ok()?;
     let job = job(scene, settings, group_of);
     let range = known.range;
     let first = (range.min_nm - scene.range.min_nm) as usize;
@@ -218,7 +231,8 @@ fn comparisons(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Op
     let probes = probe(scene, settings, &known, Set::Judging)?;
     let white = white(&probes)?;
     let (groups, group_of) = group_lamps(basis, scene.lamps.len(), false);
-    let renderer = renderer(scene, basis, settings.depth, &groups, Light::Lamps).ok()?;
+    let (pair, probing) = along_paths(settings)?;
+    let renderer = renderer(scene, pair, &probing, basis, (&groups, &group_of), Light::Lamps).ok()?;
     let job = job(scene, settings, group_of);
     let maps: Vec<_> = groups.iter().map(|&lamp| basis.to_xyz(lamp)).collect();
     let of = |probe: &Probe| {

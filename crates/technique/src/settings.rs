@@ -8,6 +8,12 @@ use std::str::FromStr;
 /// How light is followed: the registry of techniques.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Technique {
+    /// Scanline, the model evaluated once a polygon (Bouknight 1970).
+    Constant,
+    /// Scanline, the model evaluated at corners and its light interpolated (Gouraud 1971).
+    Gouraud,
+    /// Scanline, normals interpolated and the model evaluated at every pixel (Phong 1975).
+    Phong,
     /// Path tracing (Kajiya 1986).
     #[default]
     Path,
@@ -15,12 +21,21 @@ pub enum Technique {
 
 impl Technique {
     /// All techniques.
-    pub const ALL: &'static [Self] = &[Self::Path];
+    pub const ALL: &'static [Self] = &[Self::Constant, Self::Gouraud, Self::Phong, Self::Path];
+
+    /// Whether images are made scanline by scanline, of light straight from lamps alone.
+    #[must_use]
+    pub fn is_scanline(self) -> bool {
+        self != Self::Path
+    }
 }
 
 impl fmt::Display for Technique {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Self::Constant => "constant",
+            Self::Gouraud => "gouraud",
+            Self::Phong => "phong",
             Self::Path => "path",
         })
     }
@@ -32,9 +47,20 @@ impl FromStr for Technique {
     fn from_str(name: &str) -> Result<Self, String> {
         Self::ALL.iter().find(|t| t.to_string() == name).copied().ok_or_else(|| {
             let known: Vec<_> = Self::ALL.iter().map(ToString::to_string).collect();
-            format!("no technique {name:?}; known is {}", known.join(", "))
+            format!("no technique {name:?}; known are {}", known.join(", "))
         })
     }
+}
+
+/// In which space a scanline technique interpolates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Interpolation {
+    /// In the world, as perspective demands.
+    #[default]
+    Object,
+    /// On the screen, as it was done first, with its anomalies (book figures 4.9 to 4.12).
+    Screen,
 }
 
 /// A layer of the film.
@@ -57,15 +83,17 @@ pub enum Layer {
     Albedo,
     /// The fraction of the pixel that emits.
     Emission,
+    /// XYZ of each term of the illumination model: ambient, diffuse, specular, transmitted, emitted. Scanline techniques only.
+    Terms,
 }
 
 /// What a render is told.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
-    /// `path`.
+    /// `constant`, `gouraud`, `phong`, `path`.
     pub technique: String,
-    /// `general`.
+    /// `bouknight`, `phong`, … `general`.
     pub illumination: String,
     /// The spectral sampling: `fitted:8`, `1nm` …
     pub sampling: String,
@@ -83,6 +111,13 @@ pub struct Settings {
     pub tile: u32,
     /// 2 keeps two independently scrambled halves, for an estimate of the error.
     pub replicates: u32,
+    /// The ambient light of scanline techniques as a fraction of what lamps would make of a white diffuser in the middle of
+    /// the scene (book II.1.5: 0 to 0.3).
+    pub ambient: f64,
+    /// Where scanline techniques interpolate.
+    pub interpolation: Interpolation,
+    /// Whether scanline techniques look for what stands between a surface and a lamp.
+    pub shadows: bool,
 }
 
 impl Default for Settings {
@@ -98,6 +133,9 @@ impl Default for Settings {
             layers: Vec::new(),
             tile: 16,
             replicates: 1,
+            ambient: 0.15,
+            interpolation: Interpolation::default(),
+            shadows: false,
         }
     }
 }

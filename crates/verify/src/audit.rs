@@ -8,7 +8,7 @@
 //! use illuminant_illumination::{Illumination, Material, Surface};
 //! use illuminant_spectrum::Curve;
 //! use illuminant_verify::audit::{Question, audit};
-//! let paint = Material { name: "grey".into(), surface: Surface::Diffuse { reflectance: Curve::constant(0.4) }, grain: None };
+//! let paint = Material::new("grey", Surface::Diffuse { reflectance: Curve::constant(0.4) });
 //! let question = Question { wavelengths_nm: vec![550.0], angles_deg: vec![0.0, 60.0], draws: 2000 };
 //! let found = audit(&paint, Illumination::General, &question);
 //! assert!((found.scattered_reflection[1][0] - 0.4).abs() < 1e-3);
@@ -21,7 +21,7 @@ use crate::reciprocity::Reciprocity;
 use crate::sample_weight::largest_disagreement;
 use crate::site::{Medium, Site};
 use illuminant_illumination::{
-    Claims, General, Illumination, IlluminationModel, Material, Prepare, REPRESENTATIVE_NM, Surface,
+    Claims, General, Historic, Illumination, IlluminationModel, Material, Prepare, REPRESENTATIVE_NM, Surface,
 };
 use illuminant_sampling::{Basis, Lanes, Role, ToXyz};
 use illuminant_spectrum::{Curve, SpectralRange};
@@ -124,11 +124,16 @@ fn site(material: &Material, wavelengths: &[f64], range: SpectralRange) -> Site<
 #[must_use]
 pub fn audit(material: &Material, illumination: Illumination, question: &Question) -> Audit {
     match illumination {
-        Illumination::General => audit_model::<General<LANES>>(material, question),
+        Illumination::General => audit_model::<General<LANES>>(material, illumination, question),
+        _ => audit_model::<Historic<LANES>>(material, illumination, question),
     }
 }
 
-fn audit_model<M: IlluminationModel<LANES> + Prepare>(material: &Material, question: &Question) -> Audit {
+fn audit_model<M: IlluminationModel<LANES> + Prepare>(
+    material: &Material,
+    illumination: Illumination,
+    question: &Question,
+) -> Audit {
     let range = SpectralRange::default();
     let lossless = material.lossless();
     let transparent = matches!(material.surface, Surface::Dielectric { .. });
@@ -138,6 +143,7 @@ fn audit_model<M: IlluminationModel<LANES> + Prepare>(material: &Material, quest
     let prepared = |material: &Material, wavelengths: &[f64]| {
         M::prepare(
             material,
+            illumination,
             material.brightness(range) as f32,
             &Wavelengths(wavelengths),
             0..wavelengths.len(),
@@ -163,7 +169,11 @@ fn audit_model<M: IlluminationModel<LANES> + Prepare>(material: &Material, quest
         // No lane is left empty: testers look at all.
         let filled: [f64; LANES] = std::array::from_fn(|i| wavelengths[i.min(wavelengths.len() - 1)]);
         let (model, twin) = (prepared(material, &filled), prepared(&lossless, &filled));
-        let site = site(material, &filled, range);
+        let mut site = site(material, &filled, range);
+        if !model.bounds_media() {
+            // Who looks straight through a body enters no medium.
+            site.below = site.above;
+        }
         let reciprocity = Reciprocity { pairs: 2000, ..Reciprocity::default() };
         // Before it is dispersed, a path knows no function of two directions through dispersive glass.
         let mut alone = site;

@@ -14,7 +14,7 @@ fn ramp(low: f64, high: f64) -> Curve {
 }
 
 fn material(surface: Surface) -> Material {
-    Material { name: "one".into(), surface, grain: None }
+    Material::new("one", surface)
 }
 
 /// Materials of all kinds.

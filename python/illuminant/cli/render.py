@@ -51,12 +51,37 @@ def render(
     ] = None,
     technique: Annotated[
         str | None,
-        typer.Option("--technique", metavar="NAME", help="How light is followed (path)."),
+        typer.Option(
+            "--technique",
+            metavar="NAME",
+            help="How light is followed: constant, gouraud, phong (scanline), path (path).",
+        ),
     ] = None,
     illumination: Annotated[
         str | None,
-        typer.Option("--illumination", metavar="NAME", help="What a surface does (general)."),
+        typer.Option(
+            "--illumination",
+            metavar="NAME",
+            help="What a surface does: bouknight, phong, blinn, whitted, hall, cook-torrance, general (general).",
+        ),
     ] = None,
+    ambient: Annotated[
+        float | None,
+        typer.Option(
+            "--ambient",
+            metavar="F",
+            help="Ambient light of scanline techniques, as a fraction of what lamps make of a white diffuser (0.15).",
+        ),
+    ] = None,
+    interpolation: Annotated[
+        str | None,
+        typer.Option(
+            "--interpolation",
+            metavar="SPACE",
+            help="Where scanline techniques interpolate: object or screen (object).",
+        ),
+    ] = None,
+    shadows: Annotated[bool, typer.Option("--shadows", help="Let scanline techniques find shadows.")] = False,
     sampling: Annotated[
         str | None,
         typer.Option(
@@ -176,6 +201,9 @@ def render(
         "lamps": lamps or None,
         "time": time,
         "error": error,
+        "ambient": ambient,
+        "interpolation": interpolation,
+        "shadows": shadows or None,
     }
     with _Stop() as stop:
         from illuminant.rendering import Job

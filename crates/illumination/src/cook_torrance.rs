@@ -1,0 +1,39 @@
+//! `cook-torrance`: a model of energy (Cook and Torrance 1982; book eqs 4.22–4.25).
+
+use crate::historical::{Coefficients, Historical, Side, Terms, lit_from_air};
+use crate::{Blinn, Claims, Samples};
+use illuminant_optics::Vector;
+use illuminant_optics::vectors::{dot, half};
+use std::f64::consts::PI;
+
+/// I = K_a I_a + Σ (K_d M/π + K_s D G F/((N·L)(N·V))) (N·L) I dω, with K_d + K_s = 1 and Beckmann's D (book eq 4.24).
+///
+/// The lamp's I dω is its irradiance E, π times the intensity of the empirical models.
+#[derive(Clone, Copy, Debug)]
+pub struct CookTorrance;
+
+impl CookTorrance {
+    /// Reciprocal, but towards grazing light and rough surfaces more is returned than comes (book figure 4.21).
+    pub const CLAIMS: Claims = Claims {
+        reciprocal: true,
+        energy_conserving: false,
+        equilibrium: false,
+        source: "Cook and Torrance 1982; Hall 1989, eq 4.23",
+    };
+}
+
+impl<S: Samples> Historical<S> for CookTorrance {
+    #[inline]
+    fn terms(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
+        if !lit_from_air(side, v, l) {
+            return Terms::default();
+        }
+        let mut terms = Terms { diffuse: surface.lambert(l), ..Terms::default() };
+        let highlight = surface.highlight;
+        if let Some(h) = half(l, v).filter(|_| v[2] > Blinn::GRAZING) {
+            let factor = surface.specular_scale * PI * highlight.d(l, v) * highlight.g(l, v) / v[2];
+            terms.specular = surface.fresnel(dot(h, l), side, false).times(factor);
+        }
+        terms
+    }
+}

@@ -1,0 +1,392 @@
+//! The historical models in the place of any other: what techniques ask of them.
+
+use crate::historical::{AskedPair, Coefficients, Historical, Side, Terms};
+use crate::model::{Claims, Components, DiscreteLobe, IlluminationModel, Incidence, Prepare, Scattered};
+use crate::{
+    Blinn, Bouknight, CoefficientCurves, CookTorrance, Hall, Illumination, Material, Phong, Samples, Surface,
+    Weighed, Whitted,
+};
+use glam::Vec3;
+use illuminant_optics::Vector;
+use illuminant_optics::distribution::{Distribution, ggx_alpha};
+use illuminant_optics::hemisphere;
+use illuminant_optics::vectors::{dot, half, half_refracted, reflect, refract};
+use illuminant_sampling::{Basis, Lanes, Role};
+use illuminant_spectrum::{Curve, SpectralRange};
+use std::f64::consts::{FRAC_1_PI, PI};
+use std::ops::Range;
+
+impl Illumination {
+    /// Whether the model asks for radiance from the mirror direction and the refracted one.
+    #[must_use]
+    pub fn follows_rays(self) -> bool {
+        matches!(self, Self::Whitted | Self::Hall | Self::General)
+    }
+
+    /// What a historical model makes of a light; nothing for `general`, which is no sum of such terms.
+    #[inline]
+    #[must_use]
+    pub fn terms<S: Samples>(
+        self,
+        surface: &Coefficients<S>,
+        side: &Side,
+        v: Vector<f64>,
+        l: Vector<f64>,
+    ) -> Terms<S> {
+        match self {
+            Self::Bouknight => Bouknight.terms(surface, side, v, l),
+            Self::Phong => Phong.terms(surface, side, v, l),
+            Self::Blinn => Blinn.terms(surface, side, v, l),
+            Self::Whitted => Whitted.terms(surface, side, v, l),
+            Self::Hall => Hall.terms(surface, side, v, l),
+            Self::CookTorrance => CookTorrance.terms(surface, side, v, l),
+            Self::General => Terms::default(),
+        }
+    }
+
+    /// The directions from which a historical model asks for radiance.
+    #[inline]
+    #[must_use]
+    pub fn asked<S: Samples>(self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>) -> AskedPair<S> {
+        match self {
+            Self::Whitted => Whitted.asked(surface, side, v),
+            Self::Hall => Hall.asked(surface, side, v),
+            Self::General => [None, None],
+            // The models of incremental shading look straight through (Newell et al. 1972).
+            _ => Historical::<S>::asked(&Bouknight, surface, side, v),
+        }
+    }
+
+    fn historical_claims(self) -> Claims {
+        match self {
+            Self::Bouknight => Bouknight::CLAIMS,
+            Self::Phong => Phong::CLAIMS,
+            Self::Blinn => Blinn::CLAIMS,
+            Self::Whitted => Whitted::CLAIMS,
+            Self::Hall => Hall::CLAIMS,
+            Self::CookTorrance | Self::General => CookTorrance::CLAIMS,
+        }
+    }
+}
+
+/// A material as one of the historical models sees it, in the lanes of one pass.
+#[derive(Clone, Debug)]
+pub struct Historic<const N: usize> {
+    model: Illumination,
+    surface: Coefficients<Weighed<N>>,
+    /// The index inside.
+    index: f64,
+    /// Whether the surface is the border of a body into which rays are bent.
+    body: bool,
+    /// How directions are drawn for the highlight.
+    drawn: DrawnLobe,
+    /// The brightness of the diffuse term and of the highlight, for the choice between them.
+    bright: [f64; 2],
+}
+
+/// From which lobe directions are drawn for a highlight.
+#[derive(Clone, Copy, Debug)]
+enum DrawnLobe {
+    /// (R·L)^n about the mirror direction.
+    Mirror(f64),
+    /// H by (N·H)^n.
+    Power(f64),
+    /// H by Trowbridge and Reitz, of this α².
+    TrowbridgeReitz(f64),
+}
+
+impl DrawnLobe {
+    fn of(distribution: Distribution, coefficient: f64) -> Self {
+        let beta = distribution.half_angle(coefficient);
+        match distribution {
+            Distribution::Phong => Self::Mirror(coefficient.clamp(0.0, 1e6)),
+            Distribution::TrowbridgeReitz => Self::TrowbridgeReitz(ggx_alpha(beta).powi(2).clamp(1e-8, 1.0)),
+            _ => Self::Power(Distribution::Blinn.coefficient(beta).clamp(0.0, 1e6)),
+        }
+    }
+
+    /// The vector that is drawn: the light about R, or H.
+    fn draw(self, u: [f64; 2]) -> Vector<f64> {
+        let cos2 = match self {
+            Self::Mirror(n) | Self::Power(n) => (1.0 - u[0]).powf(2.0 / (n + 1.0)),
+            Self::TrowbridgeReitz(a2) => (1.0 - u[0]) / (1.0 + (a2 - 1.0) * u[0]),
+        };
+        let sin = (1.0 - cos2).max(0.0).sqrt();
+        let (s, c) = (2.0 * PI * u[1]).sin_cos();
+        [sin * c, sin * s, cos2.sqrt()]
+    }
+
+    /// Its density, 1/sr.
+    fn density(self, cos: f64) -> f64 {
+        if cos <= 0.0 {
+            return 0.0;
+        }
+        match self {
+            Self::Mirror(n) | Self::Power(n) => (n + 1.0) / (2.0 * PI) * cos.powf(n),
+            Self::TrowbridgeReitz(a2) => {
+                let d = cos * cos * (a2 - 1.0) + 1.0;
+                a2 * cos / (PI * d * d)
+            }
+        }
+    }
+}
+
+/// A place as the formulas see it: the view, with the normal on the viewer's side unless the surface bounds a body.
+struct Seen<const N: usize> {
+    side: Side,
+    v: Vector<f64>,
+    flip: f32,
+    asked: AskedPair<Weighed<N>>,
+    /// The chances of diffuse light, highlight, mirror and refraction; their sum is 1, or 0 where nothing is reflected.
+    chances: [f64; 4],
+}
+
+fn vector(v: Vec3) -> Vector<f64> {
+    [f64::from(v.x), f64::from(v.y), f64::from(v.z)]
+}
+
+impl<const N: usize> Historic<N> {
+    /// Derives the coefficients of a model for the lanes of one pass.
+    #[must_use]
+    pub fn new(
+        material: &Material,
+        model: Illumination,
+        basis: &dyn Basis,
+        samples: Range<usize>,
+        range: SpectralRange,
+    ) -> Self {
+        let curves = CoefficientCurves::new(material, model, range);
+        let surface = curves.reduce(|curve: &Curve| Weighed {
+            lanes: Lanes::from_slice(&basis.reduce(curve, Role::Fraction)[samples.clone()]),
+            brightness: curve.extent(range).1,
+        });
+        let highlight = surface.highlight;
+        let drawn = DrawnLobe::of(highlight.distribution, highlight.coefficient);
+        // A lobe of peak 1 returns about 2/(n + 1) of what comes; that of an energy model all.
+        let width = match (drawn, highlight.distribution) {
+            (_, Distribution::Cook) => 1.0,
+            (DrawnLobe::Mirror(n), _) => 2.0 / (n + 1.0),
+            (DrawnLobe::Power(n), _) => 8.0 / (n + 8.0),
+            (DrawnLobe::TrowbridgeReitz(a2), _) => 4.0 * a2 / (1.0 + 3.0 * a2),
+        };
+        let shines = if model == Illumination::Bouknight { 0.0 } else { surface.specular_scale };
+        let bright = [surface.diffuse.brightness, shines * surface.specular.brightness.max(0.05) * width];
+        let body = matches!(material.surface, Surface::Dielectric { .. }) && model.follows_rays();
+        Self { model, surface, index: curves.index, body, drawn, bright }
+    }
+
+    #[inline]
+    fn seen(&self, at: &Incidence<'_, N>) -> Seen<N> {
+        let flip = if self.body { 1.0 } else { 1f32.copysign(at.to_viewer.z) };
+        let v = vector(at.to_viewer * flip);
+        let (near, far) = (f64::from(at.near.mean), f64::from(at.far.mean));
+        let (outside, inside) = match (self.body, v[2] > 0.0) {
+            (false, _) => (near, self.index),
+            (true, true) => (near, far),
+            (true, false) => (far, near),
+        };
+        let side = Side { outside, inside, outside_is_air: outside < 1.001 };
+        let asked = self.model.asked(&self.surface, &side, v);
+        let bright = |i: usize| asked[i].as_ref().map_or(0.0, |ray| ray.weight.brightness);
+        // From inside a body only what is let through is a function of two directions.
+        let highlights = self.model == Illumination::Hall || v[2] > 0.0;
+        let [diffuse, gloss] = self.bright;
+        let weights = [
+            if v[2] > 0.0 { diffuse } else { 0.0 },
+            if highlights { gloss } else { 0.0 },
+            bright(0),
+            bright(1),
+        ];
+        let sum: f64 = weights.iter().sum();
+        let chances = if sum > 0.0 { weights.map(|w| w / sum) } else { [0.0; 4] };
+        Seen { side, v, flip, asked, chances }
+    }
+
+    /// What the model makes of light from `l`, over the irradiance, and the density with which `l` is drawn.
+    #[inline]
+    fn scattered(&self, seen: &Seen<N>, l: Vector<f64>) -> (Terms<Weighed<N>>, f64) {
+        let terms = self.model.terms(&self.surface, &seen.side, seen.v, l);
+        (terms, self.density(seen, l))
+    }
+
+    #[inline]
+    fn density(&self, seen: &Seen<N>, l: Vector<f64>) -> f64 {
+        let [diffuse, gloss, ..] = seen.chances;
+        let v = seen.v;
+        if l[2] <= 0.0 {
+            return 0.0;
+        }
+        let mut density = if v[2] > 0.0 { diffuse * l[2] * FRAC_1_PI } else { 0.0 };
+        if gloss > 0.0 {
+            density += gloss * self.gloss_density(&seen.side, v, l);
+        }
+        density
+    }
+
+    #[inline]
+    fn gloss_density(&self, side: &Side, v: Vector<f64>, l: Vector<f64>) -> f64 {
+        if v[2] < 0.0 {
+            let Some(h) = half_refracted(l, v, side.outside, side.inside) else { return 0.0 };
+            let (lh, vh) = (dot(l, h), dot(v, h));
+            if lh <= 0.0 || vh >= 0.0 {
+                return 0.0;
+            }
+            let sum = side.inside * vh + side.outside * lh;
+            // dω_h / dω_l (Walter et al. 2007, eq 17).
+            let jacobian = side.outside * side.outside * lh / (sum * sum);
+            return self.drawn.density(h[2]) * jacobian;
+        }
+        if let DrawnLobe::Mirror(_) = self.drawn {
+            return self.drawn.density(dot([-v[0], -v[1], v[2]], l));
+        }
+        match half(l, v) {
+            Some(h) if dot(v, h) > 0.0 => self.drawn.density(h[2]) / (4.0 * dot(v, h)),
+            _ => 0.0,
+        }
+    }
+
+    /// A direction of the highlight.
+    #[inline]
+    fn draw_gloss(&self, seen: &Seen<N>, u: [f64; 2]) -> Option<Vector<f64>> {
+        let (v, drawn) = (seen.v, self.drawn.draw(u));
+        if v[2] < 0.0 {
+            if dot(v, drawn) >= 0.0 {
+                return None;
+            }
+            let eta = seen.side.outside / seen.side.inside;
+            return refract(v, drawn.map(|c| -c), eta).map(|(l, _)| l);
+        }
+        if let DrawnLobe::Mirror(_) = self.drawn {
+            // The lobe about N turned to R.
+            let frame = illuminant_optics::frame::Frame::from_normal(Vec3::new(
+                -v[0] as f32,
+                -v[1] as f32,
+                v[2] as f32,
+            ));
+            return Some(vector(frame.to_world(Vec3::new(
+                drawn[0] as f32,
+                drawn[1] as f32,
+                drawn[2] as f32,
+            ))));
+        }
+        (dot(v, drawn) > 0.0).then(|| reflect(v, drawn))
+    }
+}
+
+impl<const N: usize> IlluminationModel<N> for Historic<N> {
+    #[inline]
+    fn eval(&self, at: &Incidence<'_, N>, to_light: Vec3) -> Lanes<N> {
+        let parts = self.components(at, to_light);
+        parts.diffuse + parts.specular
+    }
+
+    #[inline]
+    fn components(&self, at: &Incidence<'_, N>, to_light: Vec3) -> Components<N> {
+        let seen = self.seen(at);
+        let l = vector(to_light * seen.flip);
+        if l[2] == 0.0 {
+            return Components::default();
+        }
+        let terms = self.model.terms(&self.surface, &seen.side, seen.v, l);
+        let per_cosine = FRAC_1_PI / l[2].abs();
+        Components {
+            diffuse: Samples::times(terms.diffuse.lanes, per_cosine),
+            specular: Samples::times(terms.specular.lanes + terms.transmitted.lanes, per_cosine),
+        }
+    }
+
+    #[inline]
+    fn pdf(&self, at: &Incidence<'_, N>, to_light: Vec3) -> f32 {
+        let seen = self.seen(at);
+        self.density(&seen, vector(to_light * seen.flip)) as f32
+    }
+
+    #[inline]
+    fn sample(&self, at: &Incidence<'_, N>, u: [f32; 3], _hero: Option<usize>) -> Option<Scattered<N>> {
+        let seen = self.seen(at);
+        let [diffuse, gloss, mirror, through] = seen.chances;
+        let choice = f64::from(u[2]);
+        let u = [f64::from(u[0]), f64::from(u[1])];
+        let vec3 = |d: Vector<f64>| Vec3::new(d[0] as f32, d[1] as f32, d[2] as f32) * seen.flip;
+        if choice >= diffuse + gloss {
+            let i = usize::from(choice >= diffuse + gloss + mirror);
+            let ray = seen.asked[i].as_ref()?;
+            let chance = [mirror, through][i];
+            return (chance > 0.0).then(|| Scattered {
+                direction: vec3(ray.direction),
+                weight: Samples::times(ray.weight.lanes, chance.recip()),
+                brightness: (ray.weight.brightness / chance) as f32,
+                pdf: None,
+                transmitted: i == 1,
+                disperses: false,
+            });
+        }
+        let l = if choice < diffuse {
+            vector(Vec3::from(hemisphere::cosine([u[0] as f32, u[1] as f32])))
+        } else {
+            self.draw_gloss(&seen, u)?
+        };
+        if !(l[2] > 0.0) {
+            return None;
+        }
+        let (terms, pdf) = self.scattered(&seen, l);
+        if !(pdf > 0.0) {
+            return None;
+        }
+        // The terms hold the cosine already.
+        let sum = terms.sum().times(FRAC_1_PI / pdf);
+        Some(Scattered {
+            direction: vec3(l),
+            weight: sum.lanes,
+            brightness: sum.brightness as f32,
+            pdf: Some(pdf as f32),
+            transmitted: seen.v[2] < 0.0,
+            disperses: false,
+        })
+    }
+
+    fn discrete_lobes(&self, at: &Incidence<'_, N>) -> Vec<DiscreteLobe<N>> {
+        let seen = self.seen(at);
+        let lobe = |(i, ray): (usize, &Option<crate::Asked<Weighed<N>>>)| {
+            let ray = ray.as_ref()?;
+            let [x, y, z] = ray.direction.map(|c| c as f32);
+            Some(DiscreteLobe {
+                direction: Vec3::new(x, y, z) * seen.flip,
+                weight: ray.weight.lanes,
+                transmitted: i == 1,
+            })
+        };
+        seen.asked.iter().enumerate().filter_map(lobe).collect()
+    }
+
+    #[inline]
+    fn is_continuous(&self) -> bool {
+        self.bright[0] > 0.0 || self.bright[1] > 0.0
+    }
+
+    #[inline]
+    fn bounds_media(&self) -> bool {
+        self.body
+    }
+
+    fn ambient(&self, _at: &Incidence<'_, N>) -> Lanes<N> {
+        self.surface.ambient.lanes
+    }
+
+    fn claims(&self) -> Claims {
+        self.model.historical_claims()
+    }
+}
+
+impl<const N: usize> Prepare for Historic<N> {
+    fn prepare(
+        material: &Material,
+        model: Illumination,
+        _brightness: f32,
+        basis: &dyn Basis,
+        samples: Range<usize>,
+        range: SpectralRange,
+    ) -> Self {
+        Self::new(material, model, basis, samples, range)
+    }
+}

@@ -1,0 +1,74 @@
+//! Which technique goes with which illumination model (book table 4.1, section 4.7).
+
+use crate::settings::{Settings, Technique};
+use illuminant_illumination::Illumination;
+
+/// What is to be said of a pair.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Pair {
+    /// It belongs together.
+    Sensible(&'static str),
+    /// It works, but the image is no truth; the reason is told.
+    Warned(&'static str),
+    /// It has no meaning.
+    Refused(&'static str),
+}
+
+/// The verdict on a pair, with its reason.
+///
+/// ```
+/// use illuminant_technique::{Technique, pairs::{Pair, pair}};
+/// use illuminant_illumination::Illumination;
+/// assert!(matches!(pair(Technique::Gouraud, Illumination::Phong), Pair::Sensible(_)));
+/// assert!(matches!(pair(Technique::Gouraud, Illumination::Whitted), Pair::Refused(_)));
+/// ```
+#[must_use]
+pub fn pair(technique: Technique, illumination: Illumination) -> Pair {
+    use Illumination as I;
+    use Technique as T;
+    match (technique, illumination) {
+        (T::Path, I::General) => Pair::Sensible("follows all light, in energy equilibrium"),
+        (T::Path, I::Bouknight) => {
+            Pair::Warned("what is not diffuse is lost: metal and glass return less light than they receive")
+        }
+        (T::Path, I::CookTorrance) => {
+            Pair::Warned("towards grazing light rough metal returns more than it receives")
+        }
+        (T::Path, I::Phong | I::Blinn) => Pair::Warned(
+            "a model made for lamps alone: as a function of two directions it is not reciprocal, and can create energy",
+        ),
+        (T::Path, I::Whitted | I::Hall) => Pair::Warned(
+            "its highlights of lamps come on top of rays that meet the lamps too, so energy is created",
+        ),
+        (T::Constant | T::Gouraud, I::Whitted | I::Hall) => Pair::Refused(
+            "the model asks for the radiance from the mirror direction of every point, and this technique shades no \
+             points between corners; use phong (with a reflection map) or path",
+        ),
+        (T::Phong, I::Whitted | I::Hall) => {
+            Pair::Sensible("the mirror direction is looked up in the surroundings: reflection mapping")
+        }
+        (T::Constant, _) => Pair::Sensible("evaluated once for each polygon"),
+        (T::Gouraud, _) => Pair::Sensible("evaluated at corners; the light between them is interpolated"),
+        (T::Phong, _) => Pair::Sensible("evaluated at every pixel, with interpolated normals"),
+    }
+}
+
+/// Refuses a pair that has no meaning.
+///
+/// # Errors
+/// The reason.
+pub fn check(technique: Technique, illumination: Illumination) -> Result<(), String> {
+    match pair(technique, illumination) {
+        Pair::Refused(reason) => Err(format!("{technique} does not go with {illumination}: {reason}")),
+        _ => Ok(()),
+    }
+}
+
+/// What a user should know of the pair that settings name.
+pub(crate) fn warning(settings: &Settings) -> Option<String> {
+    let (technique, illumination) = (settings.technique.parse().ok()?, settings.illumination.parse().ok()?);
+    match pair(technique, illumination) {
+        Pair::Warned(reason) => Some(format!("{technique} with {illumination}: {reason}")),
+        _ => None,
+    }
+}

@@ -1,0 +1,183 @@
+//! What reaches a point from lamps, for techniques that ask lamps alone.
+
+use crate::lanes::Pass;
+use glam::Vec3;
+use illuminant_illumination::{IlluminationModel, Incidence};
+use illuminant_optics::frame::Frame;
+use illuminant_sampling::Lanes;
+use illuminant_scene::{LampForm, Scene};
+use std::f32::consts::FRAC_1_PI;
+
+/// The parts of a radiance: ambient, diffuse, specular, transmitted, emitted. Each has a bundle for every group of lamps.
+pub(crate) const PARTS: usize = 5;
+
+/// Where an emitting surface is asked: the centres of four equal parts.
+const ON_LAMP: [[f32; 2]; 4] = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]];
+
+/// Light that arrives from a direction.
+#[derive(Clone, Copy, Debug)]
+struct Arriving {
+    lamp: usize,
+    direction: Vec3,
+    /// Irradiance at normal incidence relative to the lamp's spectrum.
+    scale: f32,
+    target: Option<Vec3>,
+}
+
+fn arriving(scene: &Scene, point: Vec3, each: &mut impl FnMut(Arriving)) {
+    for (number, lamp) in scene.lamps.iter().enumerate() {
+        let places = match &lamp.form {
+            LampForm::Uniform | LampForm::Image(_) => continue,
+            LampForm::Surface(_) => &ON_LAMP[..],
+            _ => &ON_LAMP[..1],
+        };
+        for &u in places {
+            let Some(light) = lamp.sample(&scene.geometry, point, 0.0, u) else { continue };
+            let scale = light.scale / light.pdf.unwrap_or(1.0) / places.len() as f32;
+            each(Arriving { lamp: number, direction: light.direction, scale, target: light.target });
+        }
+    }
+}
+
+/// A place to be shaded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub position: Vec3,
+    /// For shading.
+    pub normal: Vec3,
+    pub object: usize,
+    /// Unit vector to the viewer.
+    pub to_viewer: Vec3,
+    /// Whether the viewer is on the side of the geometric normal.
+    pub front: bool,
+    /// Unit geometric normal.
+    pub geometric: Vec3,
+}
+
+/// The light of a scene in the lanes of one pass.
+pub(crate) struct Lighting<'a, const N: usize, M> {
+    pub scene: &'a Scene,
+    pub pass: &'a Pass<N, M>,
+    /// The group of each lamp.
+    pub group_of: &'a [usize],
+    /// Radiance from everywhere, of each group of lamps.
+    pub ambient: &'a [Lanes<N>],
+    /// Whether lamps are looked for with a ray.
+    pub shadows: bool,
+}
+
+/// The radiance that stands for all light that is not followed: that of the surroundings, and a fraction of what lamps would make of a
+/// white diffuser that faces them in the middle of the scene.
+pub(crate) fn ambient<const N: usize, M>(
+    scene: &Scene,
+    pass: &Pass<N, M>,
+    group_of: &[usize],
+    fraction: f32,
+) -> Vec<Lanes<N>> {
+    let (low, high) = scene.geometry.bounds();
+    let mut all = vec![Lanes::default(); group_of.iter().max().map_or(0, |last| last + 1)];
+    arriving(scene, (low + high) * 0.5, &mut |light| {
+        all[group_of[light.lamp]] += pass.emission[light.lamp] * (light.scale * FRAC_1_PI * fraction);
+    });
+    for &lamp in &scene.surroundings {
+        all[group_of[lamp]] += match &scene.lamps[lamp].form {
+            LampForm::Image(image) => {
+                pass.emission[lamp] * (image.integral() / (4.0 * std::f64::consts::PI)) as f32
+            }
+            _ => pass.emission[lamp],
+        };
+    }
+    all
+}
+
+impl<const N: usize, M: IlluminationModel<N>> Lighting<'_, N, M> {
+    /// Adds `weight` times the radiance from a direction in which nothing is followed: that of the surroundings (reflection
+    /// mapping, Blinn and Newell 1976; book figure 4.2), else what stands for all light.
+    pub fn add_around(&self, direction: Vec3, weight: &Lanes<N>, to: &mut [Lanes<N>]) {
+        if self.scene.surroundings.is_empty() {
+            to.iter_mut().zip(self.ambient).for_each(|(sum, light)| *sum += *weight * *light);
+        }
+        for &lamp in &self.scene.surroundings {
+            to[self.group_of[lamp]] += *weight * self.pass.surroundings(self.scene, lamp, direction);
+        }
+    }
+
+    /// Adds the radiance of the surroundings.
+    pub fn add_background(&self, direction: Vec3, to: &mut [Lanes<N>]) {
+        for &lamp in &self.scene.surroundings {
+            to[self.group_of[lamp]] += self.pass.surroundings(self.scene, lamp, direction);
+        }
+    }
+
+    /// Finds the parts of the radiance that a surface sends to the viewer, one after the other with a bundle for each group of
+    /// lamps; returns what of the radiance behind it comes through.
+    pub fn shade(&self, place: &Place, parts: &mut Vec<Lanes<N>>) -> Lanes<N> {
+        let groups = self.ambient.len();
+        parts.clear();
+        parts.resize(PARTS * groups, Lanes::default());
+        let (scene, pass) = (self.scene, self.pass);
+        let object = &scene.objects[place.object];
+        let model = &pass.materials[object.material];
+        // The normal on the side of the viewer; one that leans away from it is looked at along the surface.
+        let frame = match scene.materials[object.material].grain {
+            Some(grain) => Frame::along(place.normal, Vec3::from(grain)),
+            None => Frame::from_normal(place.normal),
+        };
+        let mut local = frame.to_local(place.to_viewer);
+        let side = if place.front { 1.0 } else { -1.0 };
+        if local.z * side < 1e-3 {
+            local.z = 1e-3 * side;
+            local = local.normalize();
+        }
+        let medium = Some(object.material);
+        let inside = !place.front && model.bounds_media();
+        let (near, far) = if inside { (medium, None) } else { (None, medium) };
+        let at =
+            Incidence { to_viewer: local, near: pass.index(near), far: pass.index(far), hero_lane: None };
+        if !inside {
+            let returned = model.ambient(&at);
+            parts.iter_mut().zip(self.ambient).for_each(|(part, light)| *part = returned * *light);
+        }
+        if let Some(lamp) =
+            object.lamp.filter(|&lamp| scene.lamps[lamp].emits(place.geometric, -place.to_viewer))
+        {
+            let relative = scene.lamps[lamp].relative_radiance(place.geometric, -place.to_viewer);
+            parts[4 * groups + self.group_of[lamp]] = pass.emission[lamp] * relative;
+        }
+        if model.is_continuous() {
+            arriving(scene, place.position, &mut |light| {
+                let l = frame.to_local(light.direction);
+                let found = model.components(&at, l);
+                if found.diffuse.is_zero() && found.specular.is_zero() {
+                    return;
+                }
+                if self.shadows && self.is_hidden(place, &light) {
+                    return;
+                }
+                let irradiance = pass.emission[light.lamp] * (light.scale * l.z.abs());
+                let group = self.group_of[light.lamp];
+                parts[groups + group] += found.diffuse * irradiance;
+                let part = if l.z * local.z > 0.0 { 2 } else { 3 };
+                parts[part * groups + group] += found.specular * irradiance;
+            });
+        }
+        for lobe in model.discrete_lobes(&at) {
+            if !lobe.transmitted {
+                let direction = frame.to_world(lobe.direction);
+                self.add_around(direction, &lobe.weight, &mut parts[2 * groups..3 * groups]);
+            }
+        }
+        model.see_through(&at)
+    }
+
+    fn is_hidden(&self, place: &Place, light: &Arriving) -> bool {
+        let reach = place.position.abs().max_element() + place.to_viewer.abs().max_element();
+        let away = place.geometric * (2e-5 * reach).copysign(place.geometric.dot(light.direction));
+        let origin = place.position + away;
+        let (span, tfar) = match light.target {
+            Some(target) => (target - origin, 0.999),
+            None => (light.direction, f32::INFINITY),
+        };
+        self.scene.geometry.is_occluded(origin, span, 0.0, tfar)
+    }
+}

@@ -1,0 +1,77 @@
+"""`illuminant compare`: one scene by every technique and model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from illuminant.cli.options import Exposure, Json
+
+__all__ = ["compare"]
+
+
+def compare(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (.toml).", show_default=False)],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="Contact sheet, .png (SCENE-compare.png)."),
+    ] = None,
+    techniques: Annotated[
+        str | None,
+        typer.Option("--techniques", metavar="NAME,...", help="Only these techniques.", show_default=False),
+    ] = None,
+    illuminations: Annotated[
+        str | None,
+        typer.Option("--illuminations", metavar="NAME,...", help="Only these models.", show_default=False),
+    ] = None,
+    sampling: Annotated[
+        str | None, typer.Option("--sampling", metavar="NAME", help="How wavelengths are carried (fitted:8).")
+    ] = None,
+    samples: Annotated[
+        int | None, typer.Option("--samples", metavar="N", help="Samples of each pixel (64).")
+    ] = None,
+    size: Annotated[
+        str | None, typer.Option("--size", metavar="WxH", help="Pixels, such as 320x180 (the camera's).")
+    ] = None,
+    depth: Annotated[
+        int | None, typer.Option("--depth", metavar="N", help="Longest path in segments.", show_default=False)
+    ] = None,
+    exposure: Exposure = None,
+    json: Json = False,
+) -> None:
+    """Render a scene by all pairs of technique and illumination model that have a meaning, and lay them side by side.
+
+    Energy is mean luminance; it, ΔE00 and FLIP are relative to path with general.
+
+    \b
+    Example:
+      illuminant compare room.toml --size 320x240 --samples 32 -o sheet.png
+    """
+    from illuminant.cli.report import emit_json, note
+    from illuminant.comparison import compare as run
+    from illuminant.comparison import save_sheet
+    from illuminant.image import check_output
+
+    path = output or Path(f"{scene.stem}-compare.png")
+    check_output(path)
+    options: dict[str, Any] = {"sampling": sampling, "samples": samples, "size": size, "depth": depth}
+    found = run(
+        scene,
+        techniques=techniques.split(",") if techniques else None,
+        illuminations=illuminations.split(",") if illuminations else None,
+        on_start=None if json else lambda pair: note(f"{pair.technique} with {pair.illumination} …"),
+        **options,
+    )
+    if json:
+        emit_json([one.facts() for one in found])
+    else:
+        typer.echo("technique  illumination   seconds  energy   ΔE00   FLIP")
+        for one in found:
+            typer.echo(
+                f"{one.pair.technique:<10} {one.pair.illumination:<14} {one.seconds:7.2f} {100 * one.energy:6.1f}% "
+                f"{one.delta_e:6.2f}  {one.flip:.3f}"
+            )
+    save_sheet(path, found, exposure)
+    note(f"{path}: contact sheet")
