@@ -1,0 +1,152 @@
+"""Every technique with every illumination model, as the manual's table has them."""
+
+import re
+
+import numpy as np
+import pytest
+
+import illuminant
+from illuminant.comparison import compare, pairs, save_sheet
+from illuminant.scene import load
+
+SCENE = """
+[camera]
+eye = [0, 0, 7]
+target = [0, 0, 0]
+field_of_view = 40
+size = [96, 64]
+
+[lights.key]
+kind = "point"
+position = [3, 4, 5]
+spectrum = "D65"
+intensity_cd = 2000
+
+[lights.sky]
+kind = "environment"
+spectrum = "D65"
+luminance_cd_m2 = 20
+
+[materials]
+"copper" = { kind = "conductor", metal = "copper", roughness = 0.25 }
+"paint" = { kind = "coated", roughness = 0.15, pigment = "ColorChecker/blue" }
+"glass" = { kind = "dielectric", medium = "BK7" }
+
+[objects]
+"left" = { material = "copper", mesh = "drum.obj" }
+"right" = { material = "paint", sphere = { center = [1.1, 0, 0], radius = 1.0 } }
+"front" = { material = "glass", sphere = { center = [0, -0.6, 1.6], radius = 0.4 } }
+"""
+
+
+def drum(n=10):
+    """A drum of few faces with the normals of a round one."""
+    lines = []
+    for i in range(n):
+        x, z = np.sin(2 * np.pi * i / n), np.cos(2 * np.pi * i / n)
+        lines += [f"v {x - 1.1} -1 {z}", f"v {x - 1.1} 1 {z}", f"vn {x} 0 {z}"]
+    for i in range(n):
+        a, b = i, (i + 1) % n
+        lines.append(f"f {2 * a + 1}//{a + 1} {2 * b + 1}//{b + 1} {2 * b + 2}//{b + 1}")
+        lines.append(f"f {2 * a + 1}//{a + 1} {2 * b + 2}//{b + 1} {2 * a + 2}//{a + 1}")
+    return "\n".join(lines)
+
+
+@pytest.fixture(scope="module")
+def scene(tmp_path_factory):
+    path = tmp_path_factory.mktemp("pairs") / "scene.toml"
+    (path.parent / "drum.obj").write_text(drum(), encoding="utf-8")
+    path.write_text(SCENE, encoding="utf-8")
+    return load(path)
+
+
+@pytest.fixture(scope="module")
+def images(scene):
+    return {
+        (pair.technique, pair.illumination): illuminant.render(
+            scene, technique=pair.technique, illumination=pair.illumination, samples=16
+        )
+        for pair in pairs()
+        if pair.verdict != "refused"
+    }
+
+
+def test_the_manual_has_the_table(repository):
+    text = (repository / "docs/models.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(\S+)` \| `(\S+)` \| (\w+) \| (.*) \|$", text, re.MULTILINE)
+    assert rows == [(p.technique, p.illumination, p.verdict, p.reason) for p in pairs()]
+
+
+def test_no_two_pairs_give_one_image(images):
+    kinds = list(images)
+    for i, first in enumerate(kinds):
+        for second in kinds[i + 1 :]:
+            apart = np.abs(images[first].xyz[..., 1] - images[second].xyz[..., 1]).mean()
+            assert apart > 1e-3 * images[first].xyz[..., 1].mean(), (first, second, apart)
+
+
+def test_a_diffuser_is_one_to_all_models(tmp_path):
+    """Without ambient light all models but for their name are Lambert's."""
+    text = re.sub(r'^"(left|front|copper|glass)".*$', "", SCENE, flags=re.MULTILINE)
+    text = re.sub(
+        r'^"paint".*$', '"paint" = { kind = "diffuse", reflectance = 0.5 }', text, flags=re.MULTILINE
+    )
+    text = re.sub(r"\[lights.sky\][^\[]*", "", text)
+    path = tmp_path / "diffuse.toml"
+    path.write_text(text, encoding="utf-8")
+    images = [
+        illuminant.render(path, technique="phong", illumination=pair.illumination, samples=4, ambient=0.0).xyz
+        for pair in pairs()
+        if pair.technique == "phong"
+    ]
+    for image in images[1:]:
+        np.testing.assert_allclose(image, images[0], rtol=1e-4, atol=1e-6)
+
+
+def test_terms_add_up(scene):
+    image = illuminant.render(scene, technique="phong", illumination="hall", samples=4, layers="terms")
+    names = ("ambient", "diffuse", "specular", "transmitted", "emitted")
+    total = sum(image.layers[name] for name in names)
+    np.testing.assert_allclose(total, image.xyz, rtol=1e-4, atol=1e-4)
+    assert all(image.layers[name].max() > 0 for name in ("ambient", "diffuse", "specular"))
+
+
+def test_what_has_no_meaning_is_refused(scene):
+    with pytest.raises(illuminant.UsageError, match="gouraud does not go with whitted"):
+        illuminant.render(scene, technique="gouraud", illumination="whitted", samples=1)
+    with pytest.raises(illuminant.UsageError, match="lamps apart"):
+        illuminant.render(scene, technique="gouraud", illumination="phong", samples=1, lamps=True)
+
+
+def test_the_scanline_sees_what_rays_see(scene, images):
+    """The silhouettes of both visible surface algorithms agree (book 1.2)."""
+    scan = illuminant.render(scene, technique="phong", illumination="bouknight", samples=16, layers="depth")
+    path = illuminant.render(scene, samples=16, layers="depth")
+    a, b = scan.layers["depth"][..., 0], path.layers["depth"][..., 0]
+    both = np.isfinite(a) & np.isfinite(b)
+    assert (np.isfinite(a) != np.isfinite(b)).mean() < 0.03
+    assert np.median(np.abs(a[both] / b[both] - 1)) < 2e-3
+
+
+def test_the_scanline_does_not_depend_on_threads(scene):
+    one, two = (
+        illuminant.render(scene, technique="gouraud", illumination="phong", samples=4, threads=n).xyz
+        for n in (1, 2)
+    )
+    assert np.array_equal(one, two)
+
+
+def test_a_contact_sheet_is_laid_out(scene, tmp_path):
+    found = compare(scene, techniques=["phong"], illuminations=["phong", "hall"], samples=2, size=(32, 20))
+    assert [one.pair.illumination for one in found] == ["phong", "hall"]
+    assert all(one.delta_e > 0 and one.energy > 0 for one in found)
+    save_sheet(tmp_path / "sheet.png", found)
+    assert (tmp_path / "sheet.png").stat().st_size > 5_000
+
+
+@pytest.mark.parametrize("name", ["cornell", "demo", "environment", "finishes", "two-filters", "bunny"])
+def test_every_scene_is_scanned(name, scenes):
+    image = illuminant.render(
+        scenes / f"{name}.toml", technique="gouraud", illumination="phong", samples=2, size=(48, 32)
+    )
+    assert np.isfinite(image.xyz).all() and image.xyz[..., 1].max() > 0
