@@ -1,9 +1,9 @@
-"""Scanline techniques on a mesh of 100,000 triangles at 1024x1024 with 4 spectral samples, beside path tracing with one sample.
+"""Scanline techniques on 100,000 triangles at 1024x1024 with 4 spectral samples, beside path tracing.
 
     python benches/scanline.py
 
-The aim for `gouraud` is 30 images a second on 2 cores. An image is timed without shading its corners ahead, which a camera at rest
-needs once; that time stands beside it.
+The aim for `gouraud` is 30 images a second on 2 cores. Corners are shaded ahead of the images, once for a camera at
+rest; that time stands beside them.
 """
 
 from __future__ import annotations
@@ -41,8 +41,12 @@ intensity_cd = 2000
 
 def ball() -> str:
     """A ball as a mesh with normals."""
-    theta, phi = np.meshgrid(np.linspace(0, np.pi, ROWS + 1), np.linspace(0, 2 * np.pi, COLUMNS + 1), indexing="ij")
-    points = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], -1).reshape(-1, 3)
+    theta, phi = np.meshgrid(
+        np.linspace(0, np.pi, ROWS + 1), np.linspace(0, 2 * np.pi, COLUMNS + 1), indexing="ij"
+    )
+    points = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], -1).reshape(
+        -1, 3
+    )
     lines = [f"v {x:.7f} {y:.7f} {z:.7f}" for x, y, z in points]
     lines += [f"vn {x:.7f} {y:.7f} {z:.7f}" for x, y, z in points]
     for row in range(ROWS):
@@ -72,7 +76,12 @@ def main() -> None:
             images = 16 if technique != "path" else 2
             begun = time.perf_counter()
             job = Job(
-                str(scene), technique=technique, illumination=model, sampling="uniform:4", samples=images, depth=2
+                str(scene),
+                technique=technique,
+                illumination=model,
+                sampling="uniform:4",
+                samples=images,
+                depth=2,
             )
             ahead = time.perf_counter() - begun
             for _ in job.passes(None):
