@@ -53,7 +53,11 @@ def ball() -> str:
         for column in range(COLUMNS):
             a = row * (COLUMNS + 1) + column + 1
             b, c, d = a + COLUMNS + 1, a + COLUMNS + 2, a + 1
-            lines += [f"f {a}//{a} {b}//{b} {c}//{c}", f"f {a}//{a} {c}//{c} {d}//{d}"]
+            # At the poles one of the two has no area.
+            if row + 1 < ROWS:
+                lines.append(f"f {a}//{a} {b}//{b} {c}//{c}")
+            if row > 0:
+                lines.append(f"f {a}//{a} {c}//{c} {d}//{d}")
     return "\n".join(lines)
 
 
