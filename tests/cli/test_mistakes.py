@@ -88,7 +88,10 @@ LONG = "a" * 5000
         ("render ball.toml --size 0x0", "--size 0x0: expected width and height"),
         ("render ball.toml --threads -1", "--threads -1: expected a whole number from 0"),
         ("render ball.toml --filter box:nan", "--filter box:nan: expected gaussian, box or tent"),
-        ("render ball.toml --technique magic", '--technique magic: no technique "magic"; known are constant, gouraud, phong, path.'),
+        (
+            "render ball.toml --technique magic",
+            '--technique magic: no technique "magic"; known are constant, gouraud, phong, path.',
+        ),
         (
             "render ball.toml --sampling fitted:0",
             '--sampling fitted:0: fitted:N takes a whole number N from 1 to 32, not "0"',
