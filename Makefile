@@ -40,7 +40,8 @@ test: lint ## Run every check: lint, Rust tests, Python tests
 	@echo "illuminant: pytest"
 	@$(BIN)/python -m pytest
 
-test-slow: .venv/.core ## Run the long tests: the wheel in an empty environment and their like
+test-slow: .venv/.core ## Run the long tests: a million draws over all finishes, the wheel in an empty environment
+	@$(CARGO_TEST) --test laws -- --ignored
 	@$(BIN)/python -m pytest -m slow
 
 lint: .venv/.core ## rustfmt, clippy, ruff, mypy; any warning fails

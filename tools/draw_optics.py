@@ -74,7 +74,7 @@ def colour() -> None:
 def glass() -> None:
     """What of the light ground glass lets through coherently, by height."""
     figure, ax = pyplot.subplots(figsize=(6.4, 4), layout="constrained")
-    heights = (0.0, 20.0, 50.0, 100.0, 200.0, 400.0, 800.0)
+    heights = (*range(0, 200, 20), *range(200, 500, 50), 600, 800)
     shares = []
     for sigma in heights:
         ground = {"kind": "dielectric", "n": 1.5, "roughness": 0.2, "sigma_nm": sigma}

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import TYPE_CHECKING
 
 from illuminant import finishes, optics
@@ -165,7 +164,6 @@ def coefficients(curve: Spectrum, character: str, *, energy: bool = False, n: fl
     return Coefficients(scaled, scaled, vehicle, n, 0.0)
 
 
-@cache
 def energies(beta: float) -> tuple[float, float]:
     """How the energy of a perfect reflector is divided by the angle β: specular and diffuse (book figure II.3).
 
@@ -180,22 +178,9 @@ def energies(beta: float) -> tuple[float, float]:
         >>> sharp[0] > 0.99 and sharp[0] > wide[0] and sum(wide) == 1.0
         True
     """
-    import numpy as np
-
     if not 0.0 < beta < math.pi / 2:
         raise DataError(f"β lies between 0 and π/2; found {beta:g}")
-    m2 = optics.lobe_coefficient("cook", beta)
-    x, w = np.polynomial.legendre.leggauss(400)
-    # The half vector at angle a is seen at 2a; finer near the normal.
-    t = (x + 1) / 2
-    half = np.pi / 4 * t * t
-    weight = np.pi / 4 * t * w
-    d = optics.lobe_value("cook", np.cos(half), m2)
-    theta = 2 * half
-    g = optics.masking_torrance_sparrow(0.0, np.minimum(theta, np.pi / 2))
-    # ∫ D G / (cos θ_i cos θ_r) cos θ_r dω with dω = 2π sin θ dθ.
-    specular = float((d * g * 2 * np.pi * np.sin(theta) * 2 * weight).sum())
-    specular = min(max(specular, 0.0), 1.0)
+    specular = float(optics.specular_energy(beta))
     return specular, 1.0 - specular
 
 
@@ -214,7 +199,7 @@ def propose(character: str, finish: str | float) -> Proposal:
         raise DataError(f'a character is one of {", ".join(CHARACTERS)}; found "{character}"')
     if isinstance(finish, str):
         slope = max(finishes.finish(finish).slope)
-        beta = _half_angle(max(slope, 0.01))
+        beta = float(optics.lobe_half_angle("cook", max(slope, 0.01) ** 2))
     else:
         beta = float(finish)
     specular, diffuse = energies(beta)
@@ -222,18 +207,6 @@ def propose(character: str, finish: str | float) -> Proposal:
         # The pigment returns what the surface lets in; the highlight is the surface's.
         specular, diffuse = 0.5 * specular, 1.0 - 0.5 * specular
     return Proposal(beta, float(optics.lobe_coefficient("blinn", beta)), diffuse, diffuse, specular)
-
-
-def _half_angle(m: float) -> float:
-    """The β at which Beckmann's function of slope m has fallen to half, by bisection."""
-    low, high = 1e-4, math.pi / 2 - 1e-6
-    for _ in range(80):
-        middle = 0.5 * (low + high)
-        if optics.lobe_coefficient("cook", middle) < m * m:
-            low = middle
-        else:
-            high = middle
-    return 0.5 * (low + high)
 
 
 def advise(chosen: Proposal) -> list[str]:

@@ -21,7 +21,7 @@ from illuminant.image import Image, check_output
 from illuminant.rendering import render
 from illuminant.scene import Scene, load
 
-__all__ = ["Comparison", "Pair", "compare", "pairs", "save_sheet"]
+__all__ = ["Comparison", "Pair", "check_sheet", "compare", "pairs", "save_sheet"]
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,10 @@ def compare(
         and pair.verdict != "refused"
     ]
     if not chosen:
-        raise UsageError("No pair of these is rendered: each is refused.")
+        first = next(
+            p for p in pairs() if p.technique in wanted_techniques and p.illumination in wanted_models
+        )
+        raise UsageError(f"{first.technique} does not go with {first.illumination}: {first.reason}.")
     reference = next(pair for pair in pairs() if (pair.technique, pair.illumination) == ("path", "general"))
     images = {}
     for pair in [reference, *(pair for pair in chosen if pair != reference)]:
@@ -151,6 +154,14 @@ def compare(
     return found
 
 
+def check_sheet(path: str | os.PathLike[str]) -> Path:
+    """Refuse a sheet's path before the work: it must be a PNG that can be written."""
+    target = check_output(path)
+    if target.suffix.lower() != ".png":
+        raise UsageError(f"{target}: a contact sheet is a .png.")
+    return target
+
+
 def save_sheet(
     path: str | os.PathLike[str], found: Sequence[Comparison], exposure: float | None = None
 ) -> None:
@@ -165,16 +176,13 @@ def save_sheet(
         ImageError, UsageError: the file cannot be written.
     """
     import matplotlib
-    import numpy as np
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    from illuminant import output, rgb_system
+    from illuminant import output
 
-    target = check_output(path)
-    if target.suffix.lower() != ".png":
-        raise UsageError(f"{target}: a contact sheet is a .png.")
+    target = check_sheet(path)
     first = found[0].image
     used = exposure or first.exposure or first.auto_exposure()
     rows = list(dict.fromkeys(one.pair.technique for one in found))
@@ -183,7 +191,6 @@ def save_sheet(
     figure, axes = pyplot.subplots(
         len(rows), columns, figsize=(2.4 * columns, height * len(rows)), squeeze=False, layout="constrained"
     )
-    from_xyz = np.asarray(rgb_system.named("sRGB")["from_xyz"], np.float64)
     for row, technique in enumerate(rows):
         of_row = [one for one in found if one.pair.technique == technique]
         for column in range(columns):
@@ -192,9 +199,8 @@ def save_sheet(
             if column >= len(of_row):
                 continue
             one = of_row[column]
-            linear = np.clip(one.image.xyz * used @ from_xyz.T, 0.0, 1.0)
-            encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-            axis.imshow(encoded, interpolation="lanczos")
+            pixels, _ = core().develop(one.image.xyz, "sRGB", used, 8)
+            axis.imshow(pixels, interpolation="lanczos")
             axis.set_title(f"{technique} · {one.pair.illumination}", fontsize=8)
             numbers = f"{one.seconds:.2g} s   energy {100 * one.energy:.0f} %"
             caption = f"{numbers}\nΔE00 {one.delta_e:.2f}   FLIP {one.flip:.3f}"

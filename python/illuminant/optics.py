@@ -50,6 +50,7 @@ __all__ = [
     "internal_reflectance",
     "irradiance",
     "lobe_coefficient",
+    "lobe_half_angle",
     "lobe_value",
     "masking_sancer",
     "masking_smith",
@@ -61,6 +62,7 @@ __all__ = [
     "pseudo_material",
     "sellmeier",
     "slope",
+    "specular_energy",
     "wave_distribution",
 ]
 
@@ -340,6 +342,29 @@ def lobe_coefficient(name: str, beta: ArrayLike) -> Values:
         34.43
     """
     return _call(f"{_lobe(name)}_coefficient", {"beta": (0.0, 1.5708)}, beta)
+
+
+def lobe_half_angle(name: str, coefficient: ArrayLike) -> Values:
+    """The angle β at which a lobe of a coefficient has fallen to half: the inverse of `lobe_coefficient`.
+
+    Example:
+        >>> round(lobe_half_angle("blinn", lobe_coefficient("blinn", 0.2)), 6)
+        0.2
+    """
+    return _call(f"{_lobe(name)}_half_angle", {"coefficient": (0.0, float("inf"))}, coefficient)
+
+
+def specular_energy(beta: ArrayLike) -> Values:
+    """The share of light at normal incidence that Cook and Torrance's function returns with F = 1 (book figure II.3).
+
+    Args:
+        beta: angle between N and H at which the highlight has half its strength, radians.
+
+    Example:
+        >>> specular_energy(0.05) > 0.99
+        True
+    """
+    return _call("specular_energy", {"beta": (0.0, 1.5708)}, beta)
 
 
 def lobe_value(name: str, cos: ArrayLike, coefficient: ArrayLike) -> Values:

@@ -35,8 +35,9 @@ from illuminant import machine
 from illuminant.core import core, embree
 from illuminant.errors import Error, Interrupted, MachineError, UsageError
 from illuminant.examination import WORDS, refuse
+from illuminant.film_memory import check_memory
 from illuminant.image import Image
-from illuminant.settings import Settings, resolve
+from illuminant.settings import SCANLINE, resolve
 
 if TYPE_CHECKING:
     import numpy as np
@@ -370,51 +371,6 @@ def resized(scene: Scene, size: tuple[int, int]) -> Scene:
     return scene.replace(camera={"size": list(size)})
 
 
-def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
-    """Bytes that the film and its image take, without the scene.
-
-    The film holds 16 bytes a channel (exact sums); an image and its copy on the way to a file take 20 more.
-
-    Args:
-        settings: which layers there are.
-        pixels: of the image.
-        lamps: how many lamps the scene has.
-
-    Example:
-        >>> memory_needed(Settings(), 960 * 540) // 1_000_000
-        76
-    """
-    channels = 4 + 2 * (settings.replicates > 1)
-    channels += sum({"depth": 2, "samples": 1, "terms": 15}.get(name, 3) for name in settings.layers)
-    channels += 3 * lamps if settings.lamps else 0
-    if settings.keep_spectra:
-        channels += _lanes(settings.sampling)
-    return pixels * (36 * channels + 4)
-
-
-def _lanes(sampling: str) -> int:
-    """Roughly how many samples a spectral sampling has."""
-    name, _, rest = sampling.partition(":")
-    numbers = [int(part) for part in rest.replace(":", ",").split(",") if part.isdigit()]
-    if name == "hall" and len(numbers) > 1:
-        return len(numbers) - 1
-    return {"rgb": 3, "xyz": 3, "meyer": 4}.get(name) or sum(numbers) or 401
-
-
-def check_memory(settings: Settings, pixels: int, lamps: int = 1) -> None:
-    """Refuse an image that does not fit into the memory that is free.
-
-    Raises:
-        MachineError: one sentence with both amounts.
-    """
-    needed, free = memory_needed(settings, pixels, lamps), machine.memory_available()
-    if free is not None and needed > free:
-        raise MachineError(
-            f"An image of {pixels:,} pixels with these layers needs about {machine.size(needed)} of memory, "
-            f"and {machine.size(free)} are free: choose a smaller --size or fewer layers."
-        )
-
-
 def _sentence(error: Exception) -> str:
     return str(error).strip().rstrip(".") + "."
 
@@ -592,6 +548,8 @@ def replay(
 
 def replay_job(job: Job, pixel: tuple[int, int], sample: int) -> dict[str, Any]:
     """As `replay`, for a job that exists already."""
+    if job.settings.technique in SCANLINE:
+        raise UsageError(f"--pixel: {job.settings.technique} follows no paths; path does.")
     x, y = pixel
     camera = job.scene.description["camera"]
     left, top, right, bottom = camera.get("crop") or [0, 0, *camera["size"]]

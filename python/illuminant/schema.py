@@ -206,6 +206,28 @@ class Diffuse(Table):
     reflectance: SpectrumValue = key("fraction of light reflected, 0 to 1", '"ColorChecker/dark skin"')
 
 
+# The keys of a relief, which stand in every rough material.
+Height = Annotated[float, Field(ge=0, le=1e6)]
+ROUGHNESS_ACROSS = key(
+    "the same across the grain, where it differs; `roughness` is then along the grain", "0.3", None
+)
+SIGMA_NM = key(
+    "root mean square height of the relief, in nm, of which part of the light stays coherent; default far above a "
+    "wavelength",
+    "150.0",
+    None,
+)
+GRAIN = key(
+    "direction in the world along which the grain runs, for `roughness_across`", "[1.0, 0.0, 0.0]", None
+)
+DISTRIBUTION = key("distribution of slopes: Gaussian, or with long tails", '"ggx"', "beckmann")
+FINISH = key(
+    "a finish by name instead of the keys above, such as circular mill, polished, satin",
+    '"circular mill"',
+    None,
+)
+
+
 class Conductor(Table):
     """A metal, from its measured index of refraction n and extinction k; `metal`, or `n` and `k`."""
 
@@ -216,26 +238,11 @@ class Conductor(Table):
     roughness: Fraction = key(
         "slope of the microfacets, Beckmann's m = 2σ/τ, or GGX's α; 0 is a mirror", "0.2", 0.0
     )
-    roughness_across: Fraction | None = key(
-        "the same across the grain, where it differs; `roughness` is then along the grain", "0.3", None
-    )
-    sigma_nm: Annotated[float, Field(ge=0, le=1e6)] | None = key(
-        "root mean square height of the relief, in nm, of which part of the light stays coherent; default far above a "
-        "wavelength",
-        "150.0",
-        None,
-    )
-    grain: Vector | None = key(
-        "direction in the world along which the grain runs, for `roughness_across`", "[1.0, 0.0, 0.0]", None
-    )
-    distribution: Literal["beckmann", "ggx"] = key(
-        "distribution of slopes: Gaussian, or with long tails", '"ggx"', "beckmann"
-    )
-    finish: str | None = key(
-        "a finish by name instead of the keys above, such as circular mill, polished, satin",
-        '"circular mill"',
-        None,
-    )
+    roughness_across: Fraction | None = ROUGHNESS_ACROSS
+    sigma_nm: Height | None = SIGMA_NM
+    grain: Vector | None = GRAIN
+    distribution: Literal["beckmann", "ggx"] = DISTRIBUTION
+    finish: str | None = FINISH
 
 
 class Dielectric(Table):
@@ -245,26 +252,11 @@ class Dielectric(Table):
     medium: str | None = key("name of a medium of the library, whose n is used", '"BK7"', None)
     n: SpectrumValue | None = key("index of refraction", "1.5", None)
     roughness: Fraction = key("slope of the microfacets, as of a conductor; 0 is smooth", "0.1", 0.0)
-    roughness_across: Fraction | None = key(
-        "the same across the grain, where it differs; `roughness` is then along the grain", "0.3", None
-    )
-    sigma_nm: Annotated[float, Field(ge=0, le=1e6)] | None = key(
-        "root mean square height of the relief, in nm, of which part of the light stays coherent; default far above a "
-        "wavelength",
-        "150.0",
-        None,
-    )
-    grain: Vector | None = key(
-        "direction in the world along which the grain runs, for `roughness_across`", "[1.0, 0.0, 0.0]", None
-    )
-    distribution: Literal["beckmann", "ggx"] = key(
-        "distribution of slopes: Gaussian, or with long tails", '"ggx"', "beckmann"
-    )
-    finish: str | None = key(
-        "a finish by name instead of the keys above, such as circular mill, polished, satin",
-        '"circular mill"',
-        None,
-    )
+    roughness_across: Fraction | None = ROUGHNESS_ACROSS
+    sigma_nm: Height | None = SIGMA_NM
+    grain: Vector | None = GRAIN
+    distribution: Literal["beckmann", "ggx"] = DISTRIBUTION
+    finish: str | None = FINISH
     absorption: SpectrumValue | None = key(
         "absorption coefficient of the inside, in 1/m (always, whatever `length_unit` is); default none",
         "{ wavelengths_nm = [380.0, 780.0], values = [2.0, 0.5] }",
@@ -287,26 +279,11 @@ class Coated(Table):
     medium: str | None = key("name of a medium of the library, whose n the vehicle has", '"water"', None)
     n: SpectrumValue | None = key("index of refraction of the vehicle; default 1.5", "1.5", None)
     roughness: Fraction = key("slope of the facets of its surface; 0 is gloss", "0.1", 0.0)
-    roughness_across: Fraction | None = key(
-        "the same across the grain, where it differs; `roughness` is then along the grain", "0.3", None
-    )
-    sigma_nm: Annotated[float, Field(ge=0, le=1e6)] | None = key(
-        "root mean square height of the relief, in nm, of which part of the light stays coherent; default far above a "
-        "wavelength",
-        "150.0",
-        None,
-    )
-    grain: Vector | None = key(
-        "direction in the world along which the grain runs, for `roughness_across`", "[1.0, 0.0, 0.0]", None
-    )
-    distribution: Literal["beckmann", "ggx"] = key(
-        "distribution of slopes: Gaussian, or with long tails", '"ggx"', "beckmann"
-    )
-    finish: str | None = key(
-        "a finish by name instead of the keys above, such as circular mill, polished, satin",
-        '"circular mill"',
-        None,
-    )
+    roughness_across: Fraction | None = ROUGHNESS_ACROSS
+    sigma_nm: Height | None = SIGMA_NM
+    grain: Vector | None = GRAIN
+    distribution: Literal["beckmann", "ggx"] = DISTRIBUTION
+    finish: str | None = FINISH
     pigment: SpectrumValue | None = key(
         "reflectance of the pigment for diffuse light in the vehicle, 0 to 1", "0.8", None
     )

@@ -71,14 +71,14 @@ def test_a_wrong_library_says_what_to_install(scene: Path, command: Command) -> 
 
 
 def test_an_image_too_large_for_the_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    from illuminant import rendering
+    from illuminant.film_memory import check_memory
 
     monkeypatch.setattr(machine, "memory_available", lambda: 10**9)
-    rendering.check_memory(Settings(), 960 * 540)
+    check_memory(Settings(), 960 * 540)
     with pytest.raises(
         MachineError, match=r"67,108,864 pixels .* needs about .*B of memory, and 1\.0 GB are free"
     ):
-        rendering.check_memory(Settings(keep_spectra=True), 2**26)
+        check_memory(Settings(keep_spectra=True), 2**26)
 
 
 @pytest.mark.parametrize(

@@ -28,7 +28,7 @@ def test_specular_and_diffuse_energy_are_all() -> None:
 
 def test_the_integral_is_that_of_the_golden_case() -> None:
     # integrate-11: m² = 0.25 with Torrance and Sparrow at normal incidence.
-    beta = appearance._half_angle(0.5)
+    beta = float(optics.lobe_half_angle("cook", 0.25))
     assert optics.lobe_coefficient("cook", beta) == pytest.approx(0.25, rel=1e-6)
     assert appearance.energies(beta)[0] == pytest.approx(0.8924, abs=0.01)
 

@@ -120,3 +120,21 @@ def core_render() -> Callable[..., Any]:
         return core().Render(scene.core(settings.get("threads", 0)), json.dumps(settings))
 
     return made
+
+
+@pytest.fixture(scope="session")
+def cylinder() -> Callable[..., str]:
+    """Writes a cylinder of radius 1 along y, its axis at `x`, as an OBJ of n faces with the normals of a round one."""
+
+    def written(n: int, x: float = 0.0) -> str:
+        lines = []
+        for i in range(n):
+            sin, cos = np.sin(2 * np.pi * i / n), np.cos(2 * np.pi * i / n)
+            lines += [f"v {sin + x} -1 {cos}", f"v {sin + x} 1 {cos}", f"vn {sin} 0 {cos}"]
+        for i in range(n):
+            a, b = i, (i + 1) % n
+            lines.append(f"f {2 * a + 1}//{a + 1} {2 * b + 1}//{b + 1} {2 * b + 2}//{b + 1}")
+            lines.append(f"f {2 * a + 1}//{a + 1} {2 * b + 2}//{b + 1} {2 * a + 2}//{a + 1}")
+        return "\n".join(lines)
+
+    return written

@@ -44,20 +44,6 @@ def grid(n, tilt=0.0):
     return "\n".join(lines)
 
 
-def cylinder(n):
-    """A cylinder along y of n faces, with the normals of the cylinder."""
-    lines = []
-    for i in range(n):
-        angle = 2 * np.pi * i / n
-        x, z = np.sin(angle), np.cos(angle)
-        lines += [f"v {x} -1 {z}", f"v {x} 1 {z}", f"vn {x} 0 {z}"]
-    for i in range(n):
-        a, b = i, (i + 1) % n
-        lines.append(f"f {2 * a + 1}//{a + 1} {2 * b + 1}//{b + 1} {2 * b + 2}//{b + 1}")
-        lines.append(f"f {2 * a + 1}//{a + 1} {2 * b + 2}//{b + 1} {2 * a + 2}//{a + 1}")
-    return "\n".join(lines)
-
-
 @pytest.fixture
 def shown(tmp_path):
     def render(mesh, material="chalk", light="[0, 0, 3]", **options):
@@ -104,7 +90,7 @@ def test_interpolation_in_the_world_gives_the_value_of_a_ray(shown):
     assert np.median(np.abs(scan[both] / ray[both] - 1)) < 0.01
 
 
-def test_the_slope_of_brightness_jumps_where_polygons_meet(shown):
+def test_the_slope_of_brightness_jumps_where_polygons_meet(shown, cylinder):
     """Book figure 4.9: what the eye makes Mach bands of. Interpolated normals leave little of it."""
 
     def jump(technique):
@@ -117,6 +103,6 @@ def test_the_slope_of_brightness_jumps_where_polygons_meet(shown):
     assert jump("gouraud") > 2.5 * jump("phong")
 
 
-def test_a_polygon_has_one_colour_by_constant_shading(shown):
+def test_a_polygon_has_one_colour_by_constant_shading(shown, cylinder):
     image = shown(cylinder(12), light="[0, 0, 40]", technique="constant")
     assert 4 <= len(np.unique(np.round(image[32][image[32] > 0], 3))) <= 8

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import illuminant
+from illuminant.cli import run
 from illuminant.comparison import compare, pairs, save_sheet
+from illuminant.rendering import replay
 from illuminant.scene import load
 
 SCENE = """
@@ -39,23 +41,10 @@ luminance_cd_m2 = 20
 """
 
 
-def drum(n=10):
-    """A drum of few faces with the normals of a round one."""
-    lines = []
-    for i in range(n):
-        x, z = np.sin(2 * np.pi * i / n), np.cos(2 * np.pi * i / n)
-        lines += [f"v {x - 1.1} -1 {z}", f"v {x - 1.1} 1 {z}", f"vn {x} 0 {z}"]
-    for i in range(n):
-        a, b = i, (i + 1) % n
-        lines.append(f"f {2 * a + 1}//{a + 1} {2 * b + 1}//{b + 1} {2 * b + 2}//{b + 1}")
-        lines.append(f"f {2 * a + 1}//{a + 1} {2 * b + 2}//{b + 1} {2 * a + 2}//{a + 1}")
-    return "\n".join(lines)
-
-
 @pytest.fixture(scope="module")
-def scene(tmp_path_factory):
+def scene(tmp_path_factory, cylinder):
     path = tmp_path_factory.mktemp("pairs") / "scene.toml"
-    (path.parent / "drum.obj").write_text(drum(), encoding="utf-8")
+    (path.parent / "drum.obj").write_text(cylinder(10, x=-1.1), encoding="utf-8")
     path.write_text(SCENE, encoding="utf-8")
     return load(path)
 
@@ -116,6 +105,20 @@ def test_what_has_no_meaning_is_refused(scene):
         illuminant.render(scene, technique="gouraud", illumination="whitted", samples=1)
     with pytest.raises(illuminant.UsageError, match="lamps apart"):
         illuminant.render(scene, technique="gouraud", illumination="phong", samples=1, lamps=True)
+
+
+def test_a_scanline_has_no_path_to_follow(scene):
+    with pytest.raises(illuminant.UsageError, match="follows no paths"):
+        replay(scene, (3, 3), 0, technique="gouraud", illumination="phong")
+
+
+def test_a_sheet_that_cannot_be_is_refused_before_the_work(scenes, tmp_path, capsys):
+    assert run(["compare", str(scenes / "demo.toml"), "-o", str(tmp_path / "sheet.exr")]) == 2
+    assert "a contact sheet is a .png" in capsys.readouterr().err
+    assert (
+        run(["compare", str(scenes / "demo.toml"), "--techniques", "gouraud", "--illuminations", "hall"]) == 2
+    )
+    assert "gouraud does not go with hall: " in capsys.readouterr().err
 
 
 def test_the_scanline_sees_what_rays_see(scene, images):

@@ -1,9 +1,8 @@
 //! `blinn`: facets with Fresnel's reflectance (Blinn 1977; book eq 4.15).
 
-use crate::historical::{Coefficients, Historical, Side, Terms, lit_from_air};
+use crate::historical::{Coefficients, Historical, Side, Terms};
 use crate::{Claims, Samples};
 use illuminant_optics::Vector;
-use illuminant_optics::vectors::{dot, half};
 
 /// I = K_a I_a + Σ (K_d (N·L) + K_s D G F/(N·V)) I: brightest beyond the mirror direction, as seen at grazing angles.
 #[derive(Clone, Copy, Debug)]
@@ -24,15 +23,10 @@ impl Blinn {
 
 impl<S: Samples> Historical<S> for Blinn {
     #[inline]
-    fn terms(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
-        if !lit_from_air(side, v, l) {
-            return Terms::default();
-        }
+    fn lit(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
         let mut terms = Terms { diffuse: surface.lambert(l), ..Terms::default() };
-        let highlight = surface.highlight;
-        if let Some(h) = half(l, v).filter(|_| v[2] > Self::GRAZING) {
-            let factor = surface.specular_scale * highlight.d(l, v) * highlight.g(l, v) / v[2];
-            terms.specular = surface.fresnel(dot(h, l), side, false).times(factor);
+        if v[2] > Self::GRAZING {
+            terms.specular = surface.facets(side, v, l).times(v[2].recip());
         }
         terms
     }

@@ -1,6 +1,6 @@
 //! `bouknight`: ambient and diffuse light (Bouknight 1970; book eqs 4.7–4.9).
 
-use crate::historical::{Coefficients, Historical, Side, Terms, lit_from_air};
+use crate::historical::{Coefficients, Historical, Side, Terms};
 use crate::{Claims, Samples};
 use illuminant_optics::Vector;
 
@@ -22,10 +22,7 @@ impl Bouknight {
 
 impl<S: Samples> Historical<S> for Bouknight {
     #[inline]
-    fn terms(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
-        if !lit_from_air(side, v, l) {
-            return Terms::default();
-        }
+    fn lit(&self, surface: &Coefficients<S>, _side: &Side, _v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
         Terms { diffuse: surface.lambert(l), ..Terms::default() }
     }
 }

@@ -1,9 +1,8 @@
 //! `cook-torrance`: a model of energy (Cook and Torrance 1982; book eqs 4.22–4.25).
 
-use crate::historical::{Coefficients, Historical, Side, Terms, lit_from_air};
+use crate::historical::{Coefficients, Historical, Side, Terms};
 use crate::{Blinn, Claims, Samples};
 use illuminant_optics::Vector;
-use illuminant_optics::vectors::{dot, half};
 use std::f64::consts::PI;
 
 /// I = K_a I_a + Σ (K_d M/π + K_s D G F/((N·L)(N·V))) (N·L) I dω, with K_d + K_s = 1 and Beckmann's D (book eq 4.24).
@@ -24,15 +23,10 @@ impl CookTorrance {
 
 impl<S: Samples> Historical<S> for CookTorrance {
     #[inline]
-    fn terms(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
-        if !lit_from_air(side, v, l) {
-            return Terms::default();
-        }
+    fn lit(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
         let mut terms = Terms { diffuse: surface.lambert(l), ..Terms::default() };
-        let highlight = surface.highlight;
-        if let Some(h) = half(l, v).filter(|_| v[2] > Blinn::GRAZING) {
-            let factor = surface.specular_scale * PI * highlight.d(l, v) * highlight.g(l, v) / v[2];
-            terms.specular = surface.fresnel(dot(h, l), side, false).times(factor);
+        if v[2] > Blinn::GRAZING {
+            terms.specular = surface.facets(side, v, l).times(PI / v[2]);
         }
         terms
     }

@@ -1,6 +1,6 @@
 //! The historical models in the place of any other: what techniques ask of them.
 
-use crate::historical::{AskedPair, Coefficients, Historical, Side, Terms};
+use crate::historical::{Asked, AskedPair, Coefficients, Historical, Side, Terms};
 use crate::model::{Claims, Components, DiscreteLobe, IlluminationModel, Incidence, Prepare, Scattered};
 use crate::{
     Blinn, Bouknight, CoefficientCurves, CookTorrance, Hall, Illumination, Material, Phong, Samples, Surface,
@@ -9,6 +9,7 @@ use crate::{
 use glam::Vec3;
 use illuminant_optics::Vector;
 use illuminant_optics::distribution::{Distribution, ggx_alpha};
+use illuminant_optics::frame::Frame;
 use illuminant_optics::hemisphere;
 use illuminant_optics::vectors::{dot, half, half_refracted, reflect, refract};
 use illuminant_sampling::{Basis, Lanes, Role};
@@ -145,6 +146,10 @@ fn vector(v: Vec3) -> Vector<f64> {
     [f64::from(v.x), f64::from(v.y), f64::from(v.z)]
 }
 
+fn vec3(v: Vector<f64>) -> Vec3 {
+    Vec3::from(v.map(|c| c as f32))
+}
+
 impl<const N: usize> Historic<N> {
     /// Derives the coefficients of a model for the lanes of one pass.
     #[must_use]
@@ -175,8 +180,9 @@ impl<const N: usize> Historic<N> {
         Self { model, surface, index: curves.index, body, drawn, bright }
     }
 
+    /// The media and the view, flipped to the side of the normal unless the surface bounds a body, and how it was flipped.
     #[inline]
-    fn seen(&self, at: &Incidence<'_, N>) -> Seen<N> {
+    fn place(&self, at: &Incidence<'_, N>) -> (Side, Vector<f64>, f32) {
         let flip = if self.body { 1.0 } else { 1f32.copysign(at.to_viewer.z) };
         let v = vector(at.to_viewer * flip);
         let (near, far) = (f64::from(at.near.mean), f64::from(at.far.mean));
@@ -185,7 +191,12 @@ impl<const N: usize> Historic<N> {
             (true, true) => (near, far),
             (true, false) => (far, near),
         };
-        let side = Side { outside, inside, outside_is_air: outside < 1.001 };
+        (Side { outside, inside, outside_is_air: outside < 1.001 }, v, flip)
+    }
+
+    #[inline]
+    fn seen(&self, at: &Incidence<'_, N>) -> Seen<N> {
+        let (side, v, flip) = self.place(at);
         let asked = self.model.asked(&self.surface, &side, v);
         let bright = |i: usize| asked[i].as_ref().map_or(0.0, |ray| ray.weight.brightness);
         // From inside a body only what is let through is a function of two directions.
@@ -202,13 +213,7 @@ impl<const N: usize> Historic<N> {
         Seen { side, v, flip, asked, chances }
     }
 
-    /// What the model makes of light from `l`, over the irradiance, and the density with which `l` is drawn.
-    #[inline]
-    fn scattered(&self, seen: &Seen<N>, l: Vector<f64>) -> (Terms<Weighed<N>>, f64) {
-        let terms = self.model.terms(&self.surface, &seen.side, seen.v, l);
-        (terms, self.density(seen, l))
-    }
-
+    /// The density with which `l` is drawn.
     #[inline]
     fn density(&self, seen: &Seen<N>, l: Vector<f64>) -> f64 {
         let [diffuse, gloss, ..] = seen.chances;
@@ -258,16 +263,8 @@ impl<const N: usize> Historic<N> {
         }
         if let DrawnLobe::Mirror(_) = self.drawn {
             // The lobe about N turned to R.
-            let frame = illuminant_optics::frame::Frame::from_normal(Vec3::new(
-                -v[0] as f32,
-                -v[1] as f32,
-                v[2] as f32,
-            ));
-            return Some(vector(frame.to_world(Vec3::new(
-                drawn[0] as f32,
-                drawn[1] as f32,
-                drawn[2] as f32,
-            ))));
+            let frame = Frame::from_normal(vec3([-v[0], -v[1], v[2]]));
+            return Some(vector(frame.to_world(vec3(drawn))));
         }
         (dot(v, drawn) > 0.0).then(|| reflect(v, drawn))
     }
@@ -282,12 +279,12 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
 
     #[inline]
     fn components(&self, at: &Incidence<'_, N>, to_light: Vec3) -> Components<N> {
-        let seen = self.seen(at);
-        let l = vector(to_light * seen.flip);
+        let (side, v, flip) = self.place(at);
+        let l = vector(to_light * flip);
         if l[2] == 0.0 {
             return Components::default();
         }
-        let terms = self.model.terms(&self.surface, &seen.side, seen.v, l);
+        let terms = self.model.terms(&self.surface, &side, v, l);
         let per_cosine = FRAC_1_PI / l[2].abs();
         Components {
             diffuse: Samples::times(terms.diffuse.lanes, per_cosine),
@@ -307,13 +304,12 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
         let [diffuse, gloss, mirror, through] = seen.chances;
         let choice = f64::from(u[2]);
         let u = [f64::from(u[0]), f64::from(u[1])];
-        let vec3 = |d: Vector<f64>| Vec3::new(d[0] as f32, d[1] as f32, d[2] as f32) * seen.flip;
         if choice >= diffuse + gloss {
             let i = usize::from(choice >= diffuse + gloss + mirror);
             let ray = seen.asked[i].as_ref()?;
             let chance = [mirror, through][i];
             return (chance > 0.0).then(|| Scattered {
-                direction: vec3(ray.direction),
+                direction: vec3(ray.direction) * seen.flip,
                 weight: Samples::times(ray.weight.lanes, chance.recip()),
                 brightness: (ray.weight.brightness / chance) as f32,
                 pdf: None,
@@ -329,14 +325,14 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
         if !(l[2] > 0.0) {
             return None;
         }
-        let (terms, pdf) = self.scattered(&seen, l);
+        let pdf = self.density(&seen, l);
         if !(pdf > 0.0) {
             return None;
         }
         // The terms hold the cosine already.
-        let sum = terms.sum().times(FRAC_1_PI / pdf);
+        let sum = self.model.terms(&self.surface, &seen.side, seen.v, l).sum().times(FRAC_1_PI / pdf);
         Some(Scattered {
-            direction: vec3(l),
+            direction: vec3(l) * seen.flip,
             weight: sum.lanes,
             brightness: sum.brightness as f32,
             pdf: Some(pdf as f32),
@@ -346,17 +342,20 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
     }
 
     fn discrete_lobes(&self, at: &Incidence<'_, N>) -> Vec<DiscreteLobe<N>> {
-        let seen = self.seen(at);
-        let lobe = |(i, ray): (usize, &Option<crate::Asked<Weighed<N>>>)| {
-            let ray = ray.as_ref()?;
-            let [x, y, z] = ray.direction.map(|c| c as f32);
-            Some(DiscreteLobe {
-                direction: Vec3::new(x, y, z) * seen.flip,
-                weight: ray.weight.lanes,
-                transmitted: i == 1,
-            })
+        let (side, v, flip) = self.place(at);
+        let asked = self.model.asked(&self.surface, &side, v);
+        let lobe = |(i, ray): (usize, Option<Asked<Weighed<N>>>)| {
+            let ray = ray?;
+            let direction = vec3(ray.direction) * flip;
+            Some(DiscreteLobe { direction, weight: ray.weight.lanes, transmitted: i == 1 })
         };
-        seen.asked.iter().enumerate().filter_map(lobe).collect()
+        asked.into_iter().enumerate().filter_map(lobe).collect()
+    }
+
+    fn see_through(&self, at: &Incidence<'_, N>) -> Lanes<N> {
+        let (side, v, _) = self.place(at);
+        let [_, through] = self.model.asked(&self.surface, &side, v);
+        through.map_or_else(Lanes::default, |ray| ray.weight.lanes)
     }
 
     #[inline]

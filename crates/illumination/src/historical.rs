@@ -8,7 +8,7 @@
 use crate::{Highlight, Samples};
 use illuminant_optics::Vector;
 use illuminant_optics::fresnel::{conductor_approximated, dielectric};
-use illuminant_optics::vectors::{refract_either, sine};
+use illuminant_optics::vectors::{dot, half, refract_either, sine};
 
 /// The coefficients of a material as the historical models have them (book III.6): spectra with their multipliers.
 #[derive(Clone, Copy, Debug)]
@@ -102,6 +102,15 @@ impl<S: Samples> Coefficients<S> {
         (self.specular.times(1.0 - rise) + S::splat(rise)).positive()
     }
 
+    /// C_Ks D G F, for a view and a light outside; 0 where H does not exist.
+    #[inline]
+    #[must_use]
+    pub fn facets(&self, side: &Side, v: Vector<f64>, l: Vector<f64>) -> S {
+        let Some(h) = half(l, v) else { return S::default() };
+        let factor = self.specular_scale * self.highlight.d(l, v) * self.highlight.g(l, v);
+        self.fresnel(dot(h, l), side, false).times(factor)
+    }
+
     /// The diffuse term: C_Kd K_d (N·L)^p.
     #[inline]
     #[must_use]
@@ -113,8 +122,25 @@ impl<S: Samples> Coefficients<S> {
 
 /// A model of the past: what it makes of lights and of what rays bring.
 pub trait Historical<S: Samples> {
-    /// What the model makes of a light in direction `l` for a view in direction `v`.
-    fn terms(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S>;
+    /// What it makes of a light in direction `l`, seen from `v`, where both are outside in air.
+    fn lit(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S>;
+
+    /// What it lets through of a light in the air outside to a view from inside.
+    fn let_through(&self, _surface: &Coefficients<S>, _side: &Side, _v: Vector<f64>, _l: Vector<f64>) -> S {
+        S::default()
+    }
+
+    /// What it makes of a light anywhere: only that which comes from the air counts (book III.6).
+    #[inline]
+    fn terms(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
+        if !side.outside_is_air || l[2] <= 0.0 || v[2] == 0.0 {
+            Terms::default()
+        } else if v[2] > 0.0 {
+            self.lit(surface, side, v, l)
+        } else {
+            Terms { transmitted: self.let_through(surface, side, v, l), ..Terms::default() }
+        }
+    }
 
     /// The directions from which it asks for radiance: by default straight through what is transparent, without bending
     /// (Newell, Newell and Sancha 1972).
@@ -133,9 +159,4 @@ pub(crate) fn mirrored(v: Vector<f64>) -> Vector<f64> {
 /// The refracted direction.
 pub(crate) fn refracted(v: Vector<f64>, side: &Side) -> Option<Vector<f64>> {
     refract_either(v, [0.0, 0.0, 1.0], side.outside, side.inside)
-}
-
-/// Whether the view and the light are both outside, in air.
-pub(crate) fn lit_from_air(side: &Side, v: Vector<f64>, l: Vector<f64>) -> bool {
-    side.outside_is_air && v[2] > 0.0 && l[2] > 0.0
 }

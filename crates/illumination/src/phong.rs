@@ -1,6 +1,6 @@
 //! `phong`: a highlight about the mirror direction of the view (Phong 1975; book eqs 4.11–4.13).
 
-use crate::historical::{Coefficients, Historical, Side, Terms, lit_from_air};
+use crate::historical::{Coefficients, Historical, Side, Terms};
 use crate::{Claims, Samples};
 use illuminant_optics::Vector;
 
@@ -21,10 +21,7 @@ impl Phong {
 
 impl<S: Samples> Historical<S> for Phong {
     #[inline]
-    fn terms(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
-        if !lit_from_air(side, v, l) {
-            return Terms::default();
-        }
+    fn lit(&self, surface: &Coefficients<S>, _side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
         Terms {
             diffuse: surface.lambert(l),
             specular: surface.specular.times(surface.specular_scale * surface.highlight.d(l, v)),

@@ -20,8 +20,8 @@ impl Whitted {
 
 impl<S: Samples> Historical<S> for Whitted {
     #[inline]
-    fn terms(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
-        Phong.terms(surface, side, v, l)
+    fn lit(&self, surface: &Coefficients<S>, side: &Side, v: Vector<f64>, l: Vector<f64>) -> Terms<S> {
+        Phong.lit(surface, side, v, l)
     }
 
     #[inline]

@@ -90,6 +90,12 @@ fn function(name: &str) -> Option<(usize, Function)> {
         "gaussian_coefficient" => (1, |x| Distribution::Gaussian.coefficient(x[0])),
         "trowbridge_reitz_coefficient" => (1, |x| Distribution::TrowbridgeReitz.coefficient(x[0])),
         "cook_coefficient" => (1, |x| Distribution::Cook.coefficient(x[0])),
+        "phong_half_angle" => (1, |x| Distribution::Phong.half_angle(x[0])),
+        "blinn_half_angle" => (1, |x| Distribution::Blinn.half_angle(x[0])),
+        "gaussian_half_angle" => (1, |x| Distribution::Gaussian.half_angle(x[0])),
+        "trowbridge_reitz_half_angle" => (1, |x| Distribution::TrowbridgeReitz.half_angle(x[0])),
+        "cook_half_angle" => (1, |x| Distribution::Cook.half_angle(x[0])),
+        "specular_energy" => (1, |x| illuminant_illumination::specular_and_diffuse_energy(x[0])[0]),
         "ggx_alpha" => (1, |x| ggx_alpha(x[0])),
         "wave_series" => (3, |x| wave_optics::series(x[0], x[1], x[2])),
         "wave_blended" => (3, |x| {

@@ -334,44 +334,36 @@ fn same(a: &ToXyz, b: &ToXyz) -> bool {
 }
 
 /// Renders what was asked for in bundles of N lanes.
-#[allow(clippy::too_many_arguments)]
 fn of_lanes<const N: usize>(
     scene: &Scene,
-    (technique, illumination): (Technique, Illumination),
+    pair: (Technique, Illumination),
     settings: &Settings,
     basis: &dyn Basis,
     companions: Option<&[Wavelength]>,
-    (groups, group_of): (&[usize], &[usize]),
+    groups: (&[usize], &[usize]),
     light: Light<'_>,
 ) -> Box<dyn TileRenderer> {
-    let depth = settings.depth;
-    match (technique.is_scanline(), illumination) {
-        (false, Illumination::General) => Box::new(Passes::<N, General<N>>::new(
-            scene,
-            illumination,
-            basis,
-            companions,
-            depth,
-            groups,
-            light,
-        )),
-        (false, _) => Box::new(Passes::<N, Historic<N>>::new(
-            scene,
-            illumination,
-            basis,
-            companions,
-            depth,
-            groups,
-            light,
-        )),
-        (true, Illumination::General) => {
-            let passes = passes_of::<N, General<N>>(scene, illumination, basis, None, groups, light);
-            Box::new(Scanline::new(scene, settings, technique, group_of, passes))
+    fn of_model<const N: usize, M: IlluminationModel<N> + Prepare + 'static>(
+        scene: &Scene,
+        (technique, illumination): (Technique, Illumination),
+        settings: &Settings,
+        basis: &dyn Basis,
+        companions: Option<&[Wavelength]>,
+        (groups, group_of): (&[usize], &[usize]),
+        light: Light<'_>,
+    ) -> Box<dyn TileRenderer> {
+        if technique.is_scanline() {
+            let passes = passes_of::<N, M>(scene, illumination, basis, None, groups, light);
+            return Box::new(Scanline::new(scene, settings, technique, group_of, passes));
         }
-        (true, _) => {
-            let passes = passes_of::<N, Historic<N>>(scene, illumination, basis, None, groups, light);
-            Box::new(Scanline::new(scene, settings, technique, group_of, passes))
+        let depth = settings.depth;
+        Box::new(Passes::<N, M>::new(scene, illumination, basis, companions, depth, groups, light))
+    }
+    match pair.1 {
+        Illumination::General => {
+            of_model::<N, General<N>>(scene, pair, settings, basis, companions, groups, light)
         }
+        _ => of_model::<N, Historic<N>>(scene, pair, settings, basis, companions, groups, light),
     }
 }
 

@@ -5,6 +5,7 @@ use crate::filter::FilterSampler;
 use crate::pairs;
 use crate::passes::{Job, Light, Replay, TileCounts, TileRenderer, group_lamps, renderer};
 use crate::path::Query;
+use crate::scanline::BAND;
 use crate::scene_products::{products, spectral_error};
 use crate::settings::{Layer, Settings, Technique};
 use illuminant_illumination::Illumination;
@@ -152,7 +153,7 @@ impl Render {
         let (groups, group_of) = group_lamps(&*basis, scene.lamps.len(), by_lamp);
         let names: Vec<String> = scene.lamps.iter().map(|lamp| lamp.name.clone()).collect();
         // A scanline keeps its width, so that edges and spans go on.
-        let tile = if technique.is_scanline() { [u32::MAX, 16] } else { [settings.tile.clamp(1, 4096); 2] };
+        let tile = if technique.is_scanline() { [u32::MAX, BAND] } else { [settings.tile.clamp(1, 4096); 2] };
         let film = Film::with_tiles(scene.camera.crop, tile, &settings, &names, basis.len());
         let pair = (technique, illumination);
         let renderer =

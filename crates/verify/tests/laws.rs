@@ -133,9 +133,9 @@ proptest! {
     }
 }
 
-/// The density of directions over the grid with a million draws each: `cargo test --release -p illuminant-verify --test laws -- --ignored`.
+/// The density of directions over the grid with a million draws each: `make test-slow`.
 #[test]
-#[ignore = "some minutes"]
+#[ignore = "long: make test-slow"]
 fn a_million_directions_have_their_density() {
     use illuminant_illumination::{Conductor, Dielectric, General, Metal, Spectral};
     use illuminant_verify::chi_square::{ChiSquare, sidak};

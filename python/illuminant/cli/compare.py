@@ -50,12 +50,11 @@ def compare(
       illuminant compare room.toml --size 320x240 --samples 32 -o sheet.png
     """
     from illuminant.cli.report import emit_json, note
+    from illuminant.comparison import check_sheet, save_sheet
     from illuminant.comparison import compare as run
-    from illuminant.comparison import save_sheet
-    from illuminant.image import check_output
 
     path = output or Path(f"{scene.stem}-compare.png")
-    check_output(path)
+    check_sheet(path)
     options: dict[str, Any] = {"sampling": sampling, "samples": samples, "size": size, "depth": depth}
     found = run(
         scene,

@@ -125,7 +125,7 @@ def render(
         typer.Option(
             "--layers",
             metavar="NAMES",
-            help="Auxiliary images in the EXR: depth,normal,albedo,samples.",
+            help="Auxiliary images in the EXR: depth,normal,albedo,samples; terms of a scanline technique's model.",
         ),
     ] = None,
     lamps: Annotated[bool, typer.Option("--lamps", help="A layer for the light of each lamp.")] = False,

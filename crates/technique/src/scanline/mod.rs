@@ -19,20 +19,23 @@ use edges::{Corner, EdgeTable, Span};
 use glam::Vec3;
 use illuminant_illumination::IlluminationModel;
 use illuminant_sampling::Lanes;
-use illuminant_scene::Scene;
+use illuminant_scene::{Camera, Scene};
 use lighting::{Lighting, PARTS, Place, ambient};
 use projection::{Polygon, Projection};
 use rayon::prelude::*;
 use std::ops::Range;
 use surfaces::Surfaces;
 
+/// Rows of a band of scanlines, which one thread takes at a time.
+pub(crate) const BAND: u32 = 16;
+
 /// A pass with what has been shaded ahead of scanning.
 struct ShadedPass<const N: usize, M> {
     pass: Pass<N, M>,
     ambient: Vec<Lanes<N>>,
-    /// For each polygon where its values begin in `values`: those of its corners one after the other, or of the polygon.
-    starts: Vec<u32>,
-    values: Vec<f32>,
+    /// What the model gave for each polygon (`constant`), or for each vertex as it is seen from the front and from the back
+    /// (`gouraud`); empty where nothing is seen.
+    values: Vec<Vec<f32>>,
 }
 
 /// The scanline renderer.
@@ -41,6 +44,8 @@ pub(crate) struct Scanline<const N: usize, M> {
     interpolation: Interpolation,
     surfaces: Surfaces,
     projection: Projection,
+    /// For each band of [`BAND`] rows of the image the polygons that samples in it may meet.
+    bands: Vec<Vec<u32>>,
     /// For each object whether anything is seen through it.
     transparent: Vec<bool>,
     passes: Vec<ShadedPass<N, M>>,
@@ -73,6 +78,27 @@ fn store<const N: usize>(
     }
 }
 
+/// Sorts polygons into bands of rows from the top of the crop; samples lie up to `margin` from the middle of their pixel.
+fn bands(projection: &Projection, camera: &Camera, margin: f32) -> Vec<Vec<u32>> {
+    let [_, top, _, bottom] = camera.crop;
+    let mut bands = vec![Vec::new(); (bottom - top).div_ceil(BAND) as usize];
+    let margin = f64::from(margin) + 1.0;
+    let band = |y: f64| (y - f64::from(top)) / f64::from(BAND);
+    for (number, polygon) in projection.polygons.iter().enumerate() {
+        let first = band(polygon.top - margin).max(0.0) as usize;
+        let end = (band(polygon.bottom + margin) + 1.0).clamp(0.0, bands.len() as f64) as usize;
+        for polygons in bands.iter_mut().take(end).skip(first) {
+            polygons.push(number as u32);
+        }
+    }
+    bands
+}
+
+/// The number of a vertex as it is seen from the side of a polygon.
+fn side(vertex: u32, polygon: &Polygon) -> usize {
+    2 * vertex as usize + usize::from(!polygon.front)
+}
+
 impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
     pub fn new(
         scene: &Scene,
@@ -92,6 +118,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             technique,
             interpolation: settings.interpolation,
             transparent: scene.objects.iter().map(seen_through).collect(),
+            bands: bands(&projection, &scene.camera, settings.filter.radius()),
             parts: if settings.layers.contains(&Layer::Terms) { PARTS } else { 1 },
             group_of: group_of.to_vec(),
             groups: group_of.iter().max().map_or(0, |last| last + 1),
@@ -105,16 +132,32 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
         all
     }
 
+    fn lighting<'a>(
+        &'a self,
+        scene: &'a Scene,
+        pass: &'a Pass<N, M>,
+        ambient: &'a [Lanes<N>],
+    ) -> Lighting<'a, N, M> {
+        Lighting { scene, pass, group_of: &self.group_of, ambient, shadows: self.shadows }
+    }
+
+    /// A point of a polygon as it is shaded.
+    fn place(&self, polygon: &Polygon, position: Vec3, normal: Vec3) -> Place {
+        let face = &self.surfaces.faces[polygon.face as usize];
+        Place {
+            position,
+            normal,
+            object: face.object as usize,
+            to_viewer: (self.projection.eye - position).normalize_or(face.normal),
+            front: polygon.front,
+            geometric: face.normal,
+        }
+    }
+
     /// Evaluates the model where the technique does it before scanning: once a polygon, or at its corners.
     fn shade_ahead(&self, scene: &Scene, pass: Pass<N, M>, fraction: f32) -> ShadedPass<N, M> {
         let ambient = ambient(scene, &pass, &self.group_of, fraction);
-        let lighting = Lighting {
-            scene,
-            pass: &pass,
-            group_of: &self.group_of,
-            ambient: &ambient,
-            shadows: self.shadows,
-        };
+        let lighting = self.lighting(scene, &pass, &ambient);
         let shade = |place: &Place| {
             let (mut parts, mut values) = (Vec::new(), Vec::new());
             let through = lighting.shade(place, &mut parts);
@@ -123,67 +166,41 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             values
         };
         let (projection, faces) = (&self.projection, &self.surfaces.faces);
-        let place = |polygon: &Polygon, position: Vec3, normal: Vec3| {
-            let face = &faces[polygon.face as usize];
-            Place {
-                position,
-                normal,
-                object: face.object as usize,
-                to_viewer: (projection.eye - position).normalize_or(face.normal),
-                front: polygon.front,
-                geometric: face.normal,
-            }
-        };
-        let mut starts = Vec::with_capacity(projection.polygons.len());
-        let mut values = Vec::new();
-        match self.technique {
-            Technique::Constant => {
-                let shaded: Vec<_> = projection
-                    .polygons
-                    .par_iter()
-                    .map(|polygon| {
-                        let corners = projection.corners_of(polygon);
-                        let sum: Vec3 =
-                            corners.iter().map(|&i| projection.vertices[i as usize].position).sum();
-                        let normal = faces[polygon.face as usize].normal;
-                        shade(&place(polygon, sum / corners.len() as f32, normal))
-                    })
-                    .collect();
-                for of_polygon in &shaded {
-                    starts.push(values.len() as u32);
-                    values.extend_from_slice(of_polygon);
-                }
-            }
+        let place = |polygon: &Polygon, position, normal| self.place(polygon, position, normal);
+        let values = match self.technique {
+            Technique::Constant => projection
+                .polygons
+                .par_iter()
+                .map(|polygon| {
+                    let corners = projection.corners_of(polygon);
+                    let sum: Vec3 = corners.iter().map(|&i| projection.vertices[i as usize].position).sum();
+                    let normal = faces[polygon.face as usize].normal;
+                    shade(&place(polygon, sum / corners.len() as f32, normal))
+                })
+                .collect(),
             Technique::Gouraud => {
-                // Each corner once for each of its sides that is seen, by a polygon that it belongs to.
-                let mut wanted = vec![[u32::MAX; 2]; projection.vertices.len()];
+                // Each vertex once for each of its sides that is seen, by a polygon that it belongs to.
+                let mut wanted = vec![u32::MAX; 2 * projection.vertices.len()];
                 for (number, polygon) in projection.polygons.iter().enumerate() {
                     for &corner in projection.corners_of(polygon) {
-                        wanted[corner as usize][usize::from(!polygon.front)] = number as u32;
+                        wanted[side(corner, polygon)] = number as u32;
                     }
                 }
-                let shaded: Vec<[Option<Vec<f32>>; 2]> = wanted
+                wanted
                     .par_iter()
-                    .zip(&projection.vertices)
+                    .enumerate()
                     .with_min_len(256)
-                    .map(|(wanted, vertex)| {
-                        wanted.map(|number| {
-                            let polygon = projection.polygons.get(number as usize)?;
-                            Some(shade(&place(polygon, vertex.position, vertex.normal)))
+                    .map(|(i, &number)| {
+                        let vertex = &projection.vertices[i / 2];
+                        projection.polygons.get(number as usize).map_or_else(Vec::new, |polygon| {
+                            shade(&place(polygon, vertex.position, vertex.normal))
                         })
                     })
-                    .collect();
-                for polygon in &projection.polygons {
-                    starts.push(values.len() as u32);
-                    for &corner in projection.corners_of(polygon) {
-                        let of_corner = &shaded[corner as usize][usize::from(!polygon.front)];
-                        values.extend(of_corner.iter().flatten());
-                    }
-                }
+                    .collect()
             }
-            _ => starts.resize(projection.polygons.len(), 0),
-        }
-        ShadedPass { ambient, starts, values, pass }
+            _ => Vec::new(),
+        };
+        ShadedPass { ambient, values, pass }
     }
 
     /// How many values a polygon interpolates after 1/W.
@@ -196,6 +213,12 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             }
             _ => 6,
         }
+    }
+
+    /// The values of a span at its first pixel, 1/W first, and their growths.
+    fn interpolated<'a>(&self, table: &'a EdgeTable, span: &Span) -> (&'a [f32], &'a [f32]) {
+        let width = self.width(&self.projection.polygons[span.polygon as usize]) + 1;
+        table.values[span.values..span.values + 2 * width].split_at(width)
     }
 
     /// Enters a polygon into the edge table.
@@ -212,13 +235,12 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
         let corners = self.projection.corners_of(polygon);
         let width = self.width(polygon);
         scratch.clear();
-        for (i, &corner) in corners.iter().enumerate() {
+        for &corner in corners {
             let q = self.projection.screen[corner as usize].q as f32;
             let factor = if self.interpolation == Interpolation::Object { q } else { 1.0 };
             scratch.push(q);
             if self.technique == Technique::Gouraud {
-                let first = shaded.starts[number as usize] as usize + i * width;
-                scratch.extend(shaded.values[first..first + width].iter().map(|v| v * factor));
+                scratch.extend(shaded.values[side(corner, polygon)].iter().map(|v| v * factor));
             } else if width > 0 {
                 let vertex = &self.projection.vertices[corner as usize];
                 scratch.extend((vertex.normal * factor).to_array());
@@ -247,8 +269,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
         let factor = if self.interpolation == Interpolation::Object { values[0].recip() } else { 1.0 };
         match self.technique {
             Technique::Constant => {
-                let first = shaded.starts[number as usize] as usize;
-                to.copy_from_slice(&shaded.values[first..first + to.len()]);
+                to.copy_from_slice(&shaded.values[number as usize][..to.len()]);
             }
             Technique::Gouraud => {
                 for (slot, value) in to.iter_mut().zip(&values[1..]) {
@@ -258,15 +279,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             _ => {
                 let vector = |i: usize| Vec3::new(values[i], values[i + 1], values[i + 2]) * factor;
                 let face = &self.surfaces.faces[polygon.face as usize];
-                let position = vector(4);
-                let place = Place {
-                    position,
-                    normal: vector(1).normalize_or(face.normal),
-                    object: face.object as usize,
-                    to_viewer: (self.projection.eye - position).normalize_or(face.normal),
-                    front: polygon.front,
-                    geometric: face.normal,
-                };
+                let place = self.place(polygon, vector(4), vector(1).normalize_or(face.normal));
                 let (parts, kept) = scratch;
                 let through = lighting.shade(&place, parts);
                 kept.clear();
@@ -303,7 +316,10 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
         band.owner.clear();
         band.owner.resize(size, NOBODY);
         band.veils.clear();
-        let width = |span: &Span| self.width(&self.projection.polygons[span.polygon as usize]) + 1;
+        let first = |span: &Span| {
+            let (values, growths) = self.interpolated(&band.table, span);
+            (values[0], growths[0])
+        };
         let is_veil = |span: &Span| {
             let face = self.projection.polygons[span.polygon as usize].face;
             self.transparent[self.surfaces.faces[face as usize].object as usize]
@@ -312,7 +328,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             if is_veil(span) {
                 continue;
             }
-            let (mut q, dq) = (band.table.values[span.values], band.table.values[span.values + width(span)]);
+            let (mut q, dq) = first(span);
             let place = (span.start - columns[0]) as usize..(span.end - columns[0]) as usize;
             for (nearest, owner) in band.nearest[place.clone()].iter_mut().zip(&mut band.owner[place]) {
                 if q > *nearest {
@@ -322,7 +338,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             }
         }
         for (number, span) in band.table.spans.iter().enumerate().filter(|(_, span)| is_veil(span)) {
-            let (q0, dq) = (band.table.values[span.values], band.table.values[span.values + width(span)]);
+            let (q0, dq) = first(span);
             for x in span.start..span.end {
                 let q = q0 + dq * (x - span.start) as f32;
                 if q > band.nearest[(x - columns[0]) as usize] {
@@ -345,21 +361,15 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
         sums: &mut [f32],
         seen: &mut [Primary],
     ) {
-        let lighting = Lighting {
-            scene: &job.scene,
-            pass: &shaded.pass,
-            group_of: &self.group_of,
-            ambient: &shaded.ambient,
-            shadows: self.shadows,
-        };
+        let lighting = self.lighting(&job.scene, &shaded.pass, &shaded.ambient);
         let columns = [area[0] as i32, area[2] as i32];
         let rows = [area[1] as i32, area[3] as i32];
         let shift = [0.5 + f64::from(offset[0]), 0.5 + f64::from(offset[1])];
         let mut entering: Vec<(i32, u32)> = Vec::new();
-        for (number, polygon) in self.projection.polygons.iter().enumerate() {
-            let first = EdgeTable::first_row(polygon.top, shift[1]).max(rows[0]);
-            if first < rows[1] && polygon.bottom + 1.0 > shift[1] + f64::from(rows[0]) {
-                entering.push((first, number as u32));
+        for &number in &self.bands[((area[1] - job.scene.camera.crop[1]) / BAND) as usize] {
+            let first = EdgeTable::first_row(self.projection.polygons[number as usize].top, shift[1]);
+            if first < rows[1] {
+                entering.push((first.max(rows[0]), number));
             }
         }
         entering.sort_unstable();
@@ -413,8 +423,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
                 seen[row + column].emits = !job.scene.surroundings.is_empty();
             } else {
                 let span = band.table.spans[owner as usize];
-                let width = self.width(&self.projection.polygons[span.polygon as usize]) + 1;
-                let (start, growth) = band.table.values[span.values..span.values + 2 * width].split_at(width);
+                let (start, growth) = self.interpolated(&band.table, &span);
                 if owner == running {
                     values.iter_mut().zip(growth).for_each(|(value, growth)| *value += growth);
                 } else {
@@ -429,8 +438,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             while let Some(&(_, q, number)) = band.veils.get(veil).filter(|v| v.0 == x) {
                 veil += 1;
                 let span = band.table.spans[number as usize];
-                let width = self.width(&self.projection.polygons[span.polygon as usize]) + 1;
-                let (start, growth) = band.table.values[span.values..span.values + 2 * width].split_at(width);
+                let (start, growth) = self.interpolated(&band.table, &span);
                 let skipped = (x - span.start) as f32;
                 let at: Vec<f32> =
                     start.iter().zip(growth).map(|(value, growth)| value + growth * skipped).collect();

@@ -1,0 +1,54 @@
+"""How much memory an image takes while it is rendered, and whether that is free."""
+
+from __future__ import annotations
+
+from illuminant import machine
+from illuminant.errors import MachineError
+from illuminant.settings import Settings
+
+__all__ = ["check_memory", "memory_needed"]
+
+
+def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
+    """Bytes that the film and its image take, without the scene.
+
+    The film holds 16 bytes a channel (exact sums); an image and its copy on the way to a file take 20 more.
+
+    Args:
+        settings: which layers there are.
+        pixels: of the image.
+        lamps: how many lamps the scene has.
+
+    Example:
+        >>> memory_needed(Settings(), 960 * 540) // 1_000_000
+        76
+    """
+    channels = 4 + 2 * (settings.replicates > 1)
+    channels += sum({"depth": 2, "samples": 1, "terms": 15}.get(name, 3) for name in settings.layers)
+    channels += 3 * lamps if settings.lamps else 0
+    if settings.keep_spectra:
+        channels += _lanes(settings.sampling)
+    return pixels * (36 * channels + 4)
+
+
+def _lanes(sampling: str) -> int:
+    """Roughly how many samples a spectral sampling has."""
+    name, _, rest = sampling.partition(":")
+    numbers = [int(part) for part in rest.replace(":", ",").split(",") if part.isdigit()]
+    if name == "hall" and len(numbers) > 1:
+        return len(numbers) - 1
+    return {"rgb": 3, "xyz": 3, "meyer": 4}.get(name) or sum(numbers) or 401
+
+
+def check_memory(settings: Settings, pixels: int, lamps: int = 1) -> None:
+    """Refuse an image that does not fit into the memory that is free.
+
+    Raises:
+        MachineError: one sentence with both amounts.
+    """
+    needed, free = memory_needed(settings, pixels, lamps), machine.memory_available()
+    if free is not None and needed > free:
+        raise MachineError(
+            f"An image of {pixels:,} pixels with these layers needs about {machine.size(needed)} of memory, "
+            f"and {machine.size(free)} are free: choose a smaller --size or fewer layers."
+        )
