@@ -40,7 +40,7 @@ test: lint ## Run every check: lint, Rust tests, Python tests
 	@echo "illuminant: pytest"
 	@$(BIN)/python -m pytest
 
-test-slow: .venv/.core ## Run the long tests: a million draws over all finishes, the wheel in an empty environment
+test-slow: .venv/.core ## Run the long tests: a million draws, the wheel by itself
 	@$(CARGO_TEST) --test laws -- --ignored
 	@$(BIN)/python -m pytest -m slow
 
