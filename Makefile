@@ -97,7 +97,7 @@ endif
 # The stamp takes the time at which the build began, so an edit made during the build is not missed.
 .venv/.core: $(RUST) .venv/.packages
 	@tools/check_toolchain.sh $(BIN)/python
-	@echo "illuminant: compiling the core (about two minutes the first time)"
+	@echo "illuminant: compiling the core (about seven minutes the first time)"
 	@$(if $(CI),cargo metadata --locked --format-version 1 > /dev/null)
 	@begun=$$(mktemp .venv/.core-begun.XXXXXX); trap 'rm -f "$$begun"' EXIT; \
 	$(UV) pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation \
