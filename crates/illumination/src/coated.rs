@@ -77,7 +77,11 @@ pub struct Body<const N: usize> {
 
 /// A vehicle over a body, in the lanes of one pass.
 #[derive(Clone, Debug)]
-pub struct Coated<const N: usize>(Arc<Layers<N>>);
+pub struct Coated<const N: usize> {
+    layers: Arc<Layers<N>>,
+    /// The pigment where an image gives it, in lanes and as one number.
+    pigment: Option<(Lanes<N>, f32)>,
+}
 
 #[derive(Debug)]
 struct Layers<const N: usize> {
@@ -98,6 +102,8 @@ struct Tables<const N: usize> {
     colour: Lanes<N>,
     /// D̄ in lanes.
     mean: Lanes<N>,
+    /// What is left of diffuse light on its way through the vehicle and back.
+    kept: Lanes<N>,
     /// The largest C, as one number.
     brightness: f32,
 }
@@ -142,19 +148,25 @@ impl<const N: usize> Coated<N> {
     /// A vehicle with its outer boundary (towards the vehicle) over a body.
     #[must_use]
     pub fn new(vehicle: Vehicle<N>, outer: Dielectric<N>, body: Body<N>) -> Self {
-        Self(Arc::new(Layers { vehicle, outer, body, tables: ByEta::default() }))
+        Self { layers: Arc::new(Layers { vehicle, outer, body, tables: ByEta::default() }), pigment: None }
+    }
+
+    /// The same with another pigment, whose brightness is its reflectance as one number.
+    #[must_use]
+    pub(crate) fn with_pigment(&self, pigment: &Lanes<N>, brightness: f32) -> Self {
+        Self { layers: Arc::clone(&self.layers), pigment: Some((*pigment, brightness)) }
     }
 
     /// The place as the outer boundary sees it, with the viewer above.
     #[inline(always)]
     fn outside<'a>(&'a self, at: &Incidence<'a, N>, v: Vec3) -> Incidence<'a, N> {
-        Incidence { to_viewer: v, near: at.near, far: self.0.vehicle.index(), hero_lane: None }
+        Incidence { to_viewer: v, near: at.near, far: self.layers.vehicle.index(), hero_lane: None }
     }
 
     /// The place as the metal sees it.
     #[inline(always)]
     fn under(&self, inside: Vec3) -> Incidence<'_, N> {
-        let index = self.0.vehicle.index();
+        let index = self.layers.vehicle.index();
         Incidence { to_viewer: inside, near: index, far: index, hero_lane: None }
     }
 
@@ -168,34 +180,35 @@ impl<const N: usize> Coated<N> {
     /// E in lanes.
     #[inline(always)]
     fn outer_reflectance(&self, at: &Incidence<'_, N>, v: Vec3) -> Lanes<N> {
-        self.0.outer.reflectance(&self.outside(at, v))
+        self.layers.outer.reflectance(&self.outside(at, v))
     }
 
     #[inline(always)]
     fn way(&self, at: &Incidence<'_, N>, tables: Option<&Tables<N>>, v: Vec3) -> Way<N> {
-        let eta = self.0.vehicle.mean / at.near.mean;
+        let eta = self.layers.vehicle.mean / at.near.mean;
         let inside = Self::refracted(eta, v);
         let reflected = self.outer_reflectance(at, v);
-        let passed = self.0.body.depth.map(|t| (-t / inside.z).exp());
-        let flakes = tables.filter(|_| self.0.body.metal.is_some()).map_or_else(Lanes::default, |tables| {
-            // Even steps of the root are finer near grazing.
-            let x = v.z.clamp(0.0, 1.0).sqrt() * STEPS as f32;
-            let i = (x as usize).min(STEPS - 1);
-            let p = x - i as f32;
-            tables.flakes[i] * (1.0 - p) + tables.flakes[i + 1] * p
-        });
+        let passed = self.layers.body.depth.map(|t| (-t / inside.z).exp());
+        let flakes =
+            tables.filter(|_| self.layers.body.metal.is_some()).map_or_else(Lanes::default, |tables| {
+                // Even steps of the root are finer near grazing.
+                let x = v.z.clamp(0.0, 1.0).sqrt() * STEPS as f32;
+                let i = (x as usize).min(STEPS - 1);
+                let p = x - i as f32;
+                tables.flakes[i] * (1.0 - p) + tables.flakes[i + 1] * p
+            });
         Way { v, inside, reflected, passed, flakes }
     }
 
     #[inline(always)]
     fn tables(&self, at: &Incidence<'_, N>) -> &Tables<N> {
-        let eta = self.0.vehicle.mean / at.near.mean;
-        self.0.tables.get(eta, || self.find(at, eta))
+        let eta = self.layers.vehicle.mean / at.near.mean;
+        self.layers.tables.get(eta, || self.find(at, eta))
     }
 
     #[cold]
     fn find(&self, at: &Incidence<'_, N>, eta: f32) -> Tables<N> {
-        let body = &self.0.body;
+        let body = &self.layers.body;
         let (mut flakes, mut chances) = ([Lanes::default(); STEPS + 1], [0.0; STEPS + 1]);
         let up = |i: usize| {
             let z = (i as f32 / STEPS as f32).powi(2).max(1e-5);
@@ -217,8 +230,14 @@ impl<const N: usize> Coated<N> {
                 chances[i] = smooth[i] * chance * under.coverage;
             }
         }
-        let mut tables =
-            Tables { flakes, chances, colour: Lanes::splat(1.0), mean: Lanes::default(), brightness: 1.0 };
+        let mut tables = Tables {
+            flakes,
+            chances,
+            colour: Lanes::splat(1.0),
+            mean: Lanes::default(),
+            kept: Lanes::splat(1.0),
+            brightness: 1.0,
+        };
         let mut mean = Lanes::default();
         let steps = 2 * STEPS;
         for i in 0..steps {
@@ -227,9 +246,7 @@ impl<const N: usize> Coated<N> {
             mean += Self::diffuse(&way) * (2.0 * z / steps as f32);
         }
         tables.mean = mean;
-        let covered = body.metal.as_ref().map_or(0.0, |m| m.coverage);
-        let metal = body.metal.as_ref().map_or_else(Lanes::default, |m| m.mean);
-        let several = |depth: f32| {
+        tables.kept = body.depth.map(|depth| {
             // The mean of exp(−τ/cos) over diffuse light, there and back.
             let steps = 32;
             let part = |i: usize| {
@@ -238,21 +255,60 @@ impl<const N: usize> Coated<N> {
             };
             let passed: f32 = (0..steps).map(part).sum();
             if depth > 0.0 { passed * passed } else { 1.0 }
-        };
-        let colour = |pigment: f32, metal: f32, depth: f32, mean: f32| {
-            let r = (1.0 - covered) * pigment + covered * metal;
-            let inner = (1.0 - mean / (eta * eta)).clamp(0.0, 1.0);
-            let rest = 1.0 - r * inner * several(depth);
-            if rest > 0.0 { r * (1.0 - inner) / rest } else { 1.0 }
-        };
-        tables.colour = Lanes(std::array::from_fn(|i| {
-            let c = colour(body.pigment.0[i], metal.0[i], body.depth.0[i], mean.0[i]);
-            if mean.0[i] > 0.0 { c / mean.0[i] } else { 0.0 }
-        }));
-        let bright = body.metal.as_ref().map_or(0.0, |m| m.brightness);
-        let whitest = mean.0.iter().copied().fold(0.0, f32::max);
-        tables.brightness = colour(body.brightness, bright, 0.0, whitest).clamp(0.0, 1.0);
+        });
+        tables.colour = self.colour_of(&tables, eta, &body.pigment);
+        tables.brightness = self.brightness_of(&tables, eta, body.brightness);
         tables
+    }
+
+    /// C of a reflectance R of the pigment, of what the boundary sends back inside, and of what is kept between.
+    #[inline(always)]
+    fn share(r: f32, mean: f32, kept: f32, eta: f32) -> f32 {
+        let inner = (1.0 - mean / (eta * eta)).clamp(0.0, 1.0);
+        let rest = 1.0 - r * inner * kept;
+        if rest > 0.0 { r * (1.0 - inner) / rest } else { 1.0 }
+    }
+
+    /// C / D̄ of a pigment.
+    #[inline(always)]
+    fn colour_of(&self, tables: &Tables<N>, eta: f32, pigment: &Lanes<N>) -> Lanes<N> {
+        let metal = self.layers.body.metal.as_ref();
+        let covered = metal.map_or(0.0, |m| m.coverage);
+        let metal = metal.map_or_else(Lanes::default, |m| m.mean);
+        Lanes(std::array::from_fn(|i| {
+            let r = (1.0 - covered) * pigment.0[i] + covered * metal.0[i];
+            let mean = tables.mean.0[i];
+            if mean > 0.0 { Self::share(r, mean, tables.kept.0[i], eta) / mean } else { 0.0 }
+        }))
+    }
+
+    /// The largest C of a pigment, as one number.
+    #[inline(always)]
+    fn brightness_of(&self, tables: &Tables<N>, eta: f32, pigment: f32) -> f32 {
+        let (covered, metal) =
+            self.layers.body.metal.as_ref().map_or((0.0, 0.0), |m| (m.coverage, m.brightness));
+        let whitest = tables.mean.0.iter().copied().fold(0.0, f32::max);
+        Self::share((1.0 - covered) * pigment + covered * metal, whitest, 1.0, eta).clamp(0.0, 1.0)
+    }
+
+    /// C / D̄ in lanes.
+    #[inline(always)]
+    fn colour(&self, at: &Incidence<'_, N>, tables: &Tables<N>) -> Lanes<N> {
+        match &self.pigment {
+            None => tables.colour,
+            Some((pigment, _)) => self.colour_of(tables, self.layers.vehicle.mean / at.near.mean, pigment),
+        }
+    }
+
+    /// The largest C, as one number.
+    #[inline(always)]
+    fn brightness(&self, at: &Incidence<'_, N>, tables: &Tables<N>) -> f32 {
+        match self.pigment {
+            None => tables.brightness,
+            Some((_, pigment)) => {
+                self.brightness_of(tables, self.layers.vehicle.mean / at.near.mean, pigment)
+            }
+        }
     }
 
     /// D in lanes.
@@ -266,10 +322,10 @@ impl<const N: usize> Coated<N> {
     fn function(&self, at: &Incidence<'_, N>, tables: &Tables<N>, a: &Way<N>, l: Vec3) -> Lanes<N> {
         let b = self.way(at, Some(tables), l);
         let passed = a.passed * b.passed;
-        let mut f = self.0.outer.eval(&self.outside(at, a.v), l);
-        f += Self::diffuse(a) * Self::diffuse(&b) * tables.colour * passed * FRAC_1_PI;
-        if let Some(under) = &self.0.body.metal {
-            let eta = self.0.vehicle.mean / at.near.mean;
+        let mut f = self.layers.outer.eval(&self.outside(at, a.v), l);
+        f += Self::diffuse(a) * Self::diffuse(&b) * self.colour(at, tables) * passed * FRAC_1_PI;
+        if let Some(under) = &self.layers.body.metal {
+            let eta = self.layers.vehicle.mean / at.near.mean;
             let facets = under.metal.eval(&self.under(a.inside), b.inside);
             let through = a.reflected.map(|e| 1.0 - e) * b.reflected.map(|e| 1.0 - e);
             f += facets * through * passed * (under.coverage / (eta * eta));
@@ -286,26 +342,26 @@ impl<const N: usize> Coated<N> {
         }
         let tables = self.tables(at);
         let (a, b) = (self.way(at, Some(tables), v), self.way(at, Some(tables), l));
-        Self::diffuse(&a) * Self::diffuse(&b) * tables.colour * a.passed * b.passed * FRAC_1_PI
+        Self::diffuse(&a) * Self::diffuse(&b) * self.colour(at, tables) * a.passed * b.passed * FRAC_1_PI
     }
 
     /// The share of light that comes back in all.
     pub(crate) fn reflectance(&self, at: &Incidence<'_, N>) -> Lanes<N> {
         let tables = self.tables(at);
         let a = self.way(at, Some(tables), at.to_viewer * 1f32.copysign(at.to_viewer.z));
-        let metal = self.0.body.metal.as_ref().map_or_else(Lanes::default, |m| m.mean);
-        let inner = a.flakes * metal + Self::diffuse(&a) * tables.colour * tables.mean;
+        let metal = self.layers.body.metal.as_ref().map_or_else(Lanes::default, |m| m.mean);
+        let inner = a.flakes * metal + Self::diffuse(&a) * self.colour(at, tables) * tables.mean;
         a.reflected + inner * a.passed * a.passed
     }
 
     /// Where directions are drawn from.
     #[inline(always)]
     fn chances(&self, at: &Incidence<'_, N>, tables: &Tables<N>, a: &Way<N>) -> Chances {
-        let (all, mirror, several) = self.0.outer.representative(&self.outside(at, a.v));
-        let bright = self.0.body.metal.as_ref().map_or(0.0, |m| m.brightness);
+        let (all, mirror, several) = self.layers.outer.representative(&self.outside(at, a.v));
+        let bright = self.layers.body.metal.as_ref().map_or(0.0, |m| m.brightness);
         let flakes = tables.representative_flakes(a.v.z);
         let metal = flakes * bright;
-        let body = (1.0 - all - flakes).max(0.0) * tables.brightness + several;
+        let body = (1.0 - all - flakes).max(0.0) * self.brightness(at, tables) + several;
         let facets = (all - mirror - several).max(0.0);
         let sum = (mirror + facets + metal + body).max(1e-6);
         Chances {
@@ -322,10 +378,10 @@ impl<const N: usize> Coated<N> {
     fn density(&self, at: &Incidence<'_, N>, chances: &Chances, a: &Way<N>, l: Vec3) -> f32 {
         let mut pdf = chances.body * l.z * FRAC_1_PI;
         if chances.facets > 0.0 {
-            pdf += chances.facets * self.0.outer.visible_density(&self.outside(at, a.v), l);
+            pdf += chances.facets * self.layers.outer.visible_density(&self.outside(at, a.v), l);
         }
-        if let Some(under) = self.0.body.metal.as_ref().filter(|_| chances.metal > 0.0) {
-            let eta = self.0.vehicle.mean / at.near.mean;
+        if let Some(under) = self.layers.body.metal.as_ref().filter(|_| chances.metal > 0.0) {
+            let eta = self.layers.vehicle.mean / at.near.mean;
             let inside = Self::refracted(eta, l);
             // dω' / dω = cos θ / (n² cos θ').
             pdf +=
@@ -360,8 +416,8 @@ impl<const N: usize> Coated<N> {
     /// What is seen in the mirror direction: of the boundary, and of metal without facets.
     #[inline(always)]
     fn mirrors(&self, at: &Incidence<'_, N>, a: &Way<N>) -> [Lanes<N>; 2] {
-        let boundary = self.0.outer.mirror(&self.outside(at, a.v));
-        let metal = self.0.body.metal.as_ref().filter(|m| !m.metal.is_rough()).map(|under| {
+        let boundary = self.layers.outer.mirror(&self.outside(at, a.v));
+        let metal = self.layers.body.metal.as_ref().filter(|m| !m.metal.is_rough()).map(|under| {
             let weight = under.metal.mirror_weight(&self.under(a.inside), a.inside.z);
             let through = a.reflected.map(|e| 1.0 - e);
             weight * through * through * a.passed * a.passed * under.coverage
@@ -379,7 +435,7 @@ impl<const N: usize> Coated<N> {
         let tables = self.tables(at);
         let a = self.way(at, Some(tables), v);
         let chances = self.chances(at, tables, &a);
-        let smooth_metal = self.0.body.metal.as_ref().is_some_and(|m| !m.metal.is_rough());
+        let smooth_metal = self.layers.body.metal.as_ref().is_some_and(|m| !m.metal.is_rough());
         let mirror = chances.mirror + if smooth_metal { chances.metal } else { 0.0 };
         let scattered = |direction: Vec3, weight: Lanes<N>, pdf: Option<f32>| Scattered {
             direction: direction * flip,
@@ -397,13 +453,13 @@ impl<const N: usize> Coated<N> {
         }
         let choice = u[2] - mirror;
         let l = if choice < chances.facets {
-            let h = self.0.outer.sample_visible(&self.outside(at, v), [u[0], u[1]])?;
+            let h = self.layers.outer.sample_visible(&self.outside(at, v), [u[0], u[1]])?;
             Vec3::from(reflect(v.to_array(), h))
         } else if choice < chances.facets + chances.metal && !smooth_metal {
-            let under = self.0.body.metal.as_ref()?;
+            let under = self.layers.body.metal.as_ref()?;
             let lobe = ((choice - chances.facets) / chances.metal).min(1.0 - f32::EPSILON);
             let drawn = under.metal.sample(&self.under(a.inside), [u[0], u[1], lobe])?;
-            let l = drawn.direction * (self.0.vehicle.mean / at.near.mean);
+            let l = drawn.direction * (self.layers.vehicle.mean / at.near.mean);
             let sin2 = l.x * l.x + l.y * l.y;
             if sin2 >= 1.0 {
                 return None;

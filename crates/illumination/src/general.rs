@@ -258,6 +258,16 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
         }
     }
 
+    #[inline]
+    fn coloured(&self, colour: &Lanes<N>, brightness: f32) -> Self {
+        match self {
+            Self::Diffuse { .. } => Self::Diffuse { brdf: *colour * FRAC_1_PI, brightness },
+            Self::Filter { .. } => Self::Filter { transmittance: *colour, brightness },
+            Self::Coated(coated) => Self::Coated(coated.with_pigment(colour, brightness)),
+            Self::Conductor(_) | Self::Dielectric(_) => self.clone(),
+        }
+    }
+
     fn claims(&self) -> Claims {
         Claims {
             reciprocal: true,

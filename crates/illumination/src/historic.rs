@@ -11,6 +11,7 @@ use illuminant_optics::Vector;
 use illuminant_optics::distribution::{Distribution, ggx_alpha};
 use illuminant_optics::frame::Frame;
 use illuminant_optics::hemisphere;
+use illuminant_optics::saunderson::internal_reflectance;
 use illuminant_optics::vectors::{dot, half, half_refracted, reflect, refract};
 use illuminant_sampling::{Basis, Lanes, Role};
 use illuminant_spectrum::{Curve, SpectralRange};
@@ -83,6 +84,58 @@ pub struct Historic<const N: usize> {
     drawn: DrawnLobe,
     /// The brightness of the diffuse term and of the highlight, for the choice between them.
     bright: [f64; 2],
+    /// What becomes of a colour that an image gives.
+    coloured: Coloured<N>,
+}
+
+/// By which rule a colour of an image becomes a coefficient: that of [`CoefficientCurves`], in lanes.
+#[derive(Clone, Copy, Debug)]
+enum Coloured<const N: usize> {
+    /// Not at all: there is no such colour, or the scene states the coefficient.
+    Not,
+    /// A diffuser: times C_Ka and C_Kd.
+    Diffuser([f64; 2]),
+    /// A pigment: what of it leaves the body (Saunderson 1942), by the reflectance of the boundary for diffuse light from inside;
+    /// `most` is what leaves of a perfect one.
+    Pigment { scales: [f64; 2], inner: f32, most: Lanes<N>, brightest: f32 },
+    /// A filter: times C_Kt.
+    Filter(f64),
+}
+
+impl<const N: usize> Coloured<N> {
+    fn new(
+        material: &Material,
+        model: Illumination,
+        curves: &CoefficientCurves,
+        range: SpectralRange,
+        reduce: impl Fn(&Curve) -> Lanes<N>,
+    ) -> Self {
+        let scales = [curves.ambient_scale, curves.diffuse_scale];
+        let mut stated = material.overrides.iter().filter(|over| over.model.is_none_or(|m| m == model));
+        match &material.surface {
+            Surface::Filter { .. } if stated.all(|over| over.transmitted_curve.is_none()) => {
+                Self::Filter(curves.transmitted_scale)
+            }
+            Surface::Diffuse { .. } if stated.all(|over| over.diffuse_curve.is_none()) => {
+                Self::Diffuser(scales)
+            }
+            Surface::Coated { n, finish, film, flakes, .. }
+                if stated.all(|over| over.diffuse_curve.is_none()) =>
+            {
+                let pigment = Curve::constant(1.0);
+                let (n, film, flakes) = (n.clone(), film.clone(), flakes.clone());
+                let surface = Surface::Coated { n, finish: *finish, film, pigment, flakes };
+                let white = CoefficientCurves::new(&Material { surface, ..material.clone() }, model, range);
+                Self::Pigment {
+                    scales,
+                    inner: internal_reflectance(curves.index) as f32,
+                    most: reduce(&white.diffuse),
+                    brightest: white.diffuse.extent(range).1 as f32,
+                }
+            }
+            _ => Self::Not,
+        }
+    }
 }
 
 /// From which lobe directions are drawn for a highlight.
@@ -177,7 +230,9 @@ impl<const N: usize> Historic<N> {
         let shines = if model == Illumination::Bouknight { 0.0 } else { surface.specular_scale };
         let bright = [surface.diffuse.brightness, shines * surface.specular.brightness.max(0.05) * width];
         let body = matches!(material.surface, Surface::Dielectric { .. }) && model.follows_rays();
-        Self { model, surface, index: curves.index, body, drawn, bright }
+        let lanes = |curve: &Curve| Lanes::from_slice(&basis.reduce(curve, Role::Fraction)[samples.clone()]);
+        let coloured = Coloured::new(material, model, &curves, range, lanes);
+        Self { model, surface, index: curves.index, body, drawn, bright, coloured }
     }
 
     /// The media and the view, flipped to the side of the normal unless the surface bounds a body, and how it was flipped.
@@ -370,6 +425,29 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
 
     fn ambient(&self, _at: &Incidence<'_, N>) -> Lanes<N> {
         self.surface.ambient.lanes
+    }
+
+    fn coloured(&self, colour: &Lanes<N>, brightness: f32) -> Self {
+        let mut found = self.clone();
+        let mut scatters = |scales: [f64; 2], lanes: Lanes<N>, brightness: f64| {
+            let body = Weighed { lanes, brightness };
+            found.surface.ambient = body.times(scales[0]);
+            found.surface.diffuse = body.times(scales[1]);
+            found.bright[0] = found.surface.diffuse.brightness;
+        };
+        match self.coloured {
+            Coloured::Not => {}
+            Coloured::Diffuser(scales) => scatters(scales, *colour, f64::from(brightness)),
+            Coloured::Pigment { scales, inner, most, brightest } => {
+                let leaves = |p: f32| p * (1.0 - inner) / (1.0 - inner * p);
+                scatters(scales, most * colour.map(leaves), f64::from(brightest * leaves(brightness)));
+            }
+            Coloured::Filter(scale) => {
+                let through = Weighed { lanes: *colour, brightness: f64::from(brightness) };
+                found.surface.transmitted = through.times(scale);
+            }
+        }
+        found
     }
 
     fn claims(&self) -> Claims {

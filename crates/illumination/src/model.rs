@@ -126,12 +126,19 @@ pub trait IlluminationModel<const N: usize>: Send + Sync {
         through.fold(Lanes::default(), |sum, lobe| sum + lobe.weight)
     }
 
+    /// The same surface where an image gives the colour of what lies under it or in it: the reflectance of a diffuser or a
+    /// pigment, the transmittance of a filter, in lanes and as one number. Other surfaces have no such colour, and stay as they are.
+    #[must_use]
+    fn coloured(&self, colour: &Lanes<N>, brightness: f32) -> Self
+    where
+        Self: Sized;
+
     /// The laws it claims.
     fn claims(&self) -> Claims;
 }
 
 /// How a model is made from a material: the documented rule of each model.
-pub trait Prepare: Sized {
+pub trait Prepare: Sized + Clone + Send + Sync {
     /// Derives the coefficients of a model in the lanes of one pass (`samples` of `basis`). `brightness` is that of
     /// [`Material::brightness`], which is the same for all passes.
     fn prepare(

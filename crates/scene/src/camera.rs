@@ -118,6 +118,12 @@ impl Camera {
         }
     }
 
+    /// The angle across a pixel in the middle of the image, radians.
+    #[must_use]
+    pub fn pixel_angle(&self) -> f32 {
+        self.rays.dx.length()
+    }
+
     /// The point of the image, in pixels, where a point of the world appears; `None` behind the eye (R1.2).
     #[must_use]
     pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {

@@ -1,6 +1,7 @@
 //! A resolved scene as plain data: what is written, sent, hashed, and made into a [`crate::Scene`].
 
 use crate::photometry::Quantity;
+use crate::texture::Wrap;
 use illuminant_spectrum::{Outside, SpectralRange};
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +16,9 @@ pub struct Description {
     pub curves: Vec<CurveData>,
     /// All materials.
     pub materials: Vec<MaterialData>,
+    /// What images say of each material, in the same order; empty where they say nothing at all.
+    #[serde(default)]
+    pub skins: Vec<SkinData>,
     /// One for each placement, in the same order.
     pub objects: Vec<ObjectData>,
     /// Lamps that are no objects.
@@ -131,6 +135,88 @@ pub enum ShapeData {
     Beckmann,
     /// With long tails.
     Ggx,
+}
+
+/// What images say of a material.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SkinData {
+    /// Reflectance of a diffuser or a pigment, transmittance of a filter.
+    pub colour: Option<ColourTextureData>,
+    /// The slope of the relief.
+    pub slope: Option<SlopeTextureData>,
+    /// How the normal is perturbed.
+    pub relief: Option<ReliefTextureData>,
+}
+
+/// An image and how it lies on a surface.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MapData {
+    /// Key of the image.
+    pub image: String,
+    /// What lies beyond its border.
+    #[serde(default)]
+    pub wrap: Wrap,
+    /// How often it stands along u and v.
+    #[serde(default = "once")]
+    pub repeat: [f32; 2],
+    /// Where its lower left corner lies, in images.
+    #[serde(default)]
+    pub offset: [f32; 2],
+}
+
+fn once() -> [f32; 2] {
+    [1.0, 1.0]
+}
+
+/// An image of colours.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ColourTextureData {
+    /// The image.
+    pub map: MapData,
+    /// Indices of the curves that one unit of each channel is.
+    pub basis: [usize; 3],
+    /// Whether it shows finished paint, of which the pigment is wanted.
+    #[serde(default)]
+    pub finished: bool,
+}
+
+/// An image of slopes.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SlopeTextureData {
+    /// The image.
+    pub map: MapData,
+    /// Which channel.
+    #[serde(default)]
+    pub channel: usize,
+    /// The slopes of 0 and 1.
+    pub slopes: [f64; 2],
+}
+
+/// An image that perturbs normals.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum ReliefTextureData {
+    /// Heights.
+    Heights {
+        /// The image.
+        map: MapData,
+        /// Which channel.
+        #[serde(default)]
+        channel: usize,
+        /// The height of 1, m.
+        height: f32,
+    },
+    /// Normals, each component n stored as (n + 1)/2: along u, along v, away from the surface.
+    Normals {
+        /// The image.
+        map: MapData,
+        /// A factor on the slopes.
+        strength: f32,
+    },
 }
 
 /// A layer that absorbs.

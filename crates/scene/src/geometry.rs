@@ -7,9 +7,10 @@
 use crate::Motion;
 use crate::embree::{self, Device, EmbreeError, RtcArguments, RtcRay, RtcRayHit};
 use crate::shape::{Mesh, Placement, Shape, bake, check_shape, facets_of_sphere, reach};
-use crate::surface::{Hit, Ray, SurfacePoint, instance_point, mesh_point, sphere_point};
+use crate::surface::{Hit, Ray, SurfacePoint, along_texture, instance_point, mesh_point, sphere_point};
 use crate::ties::{TieContext, break_ties};
 use glam::{Affine3A, Vec2, Vec3};
+use std::f32::consts::{PI, TAU};
 use std::ffi::c_void;
 use std::ptr;
 use thiserror::Error;
@@ -403,26 +404,31 @@ impl Geometry {
         }
     }
 
-    /// The tangent at a hit, along which the first texture coordinate grows: a unit vector in the plane of the triangle,
-    /// or of the parallel of a sphere; any in the surface where the coordinates do not tell.
+    /// How the position grows with the texture coordinates at a hit, in the world: ∂p/∂u and ∂p/∂v. Where a mesh has none, they
+    /// are the barycentric ones.
     #[must_use]
-    pub fn tangent(&self, ray: &Ray, hit: &Hit) -> Vec3 {
-        let normal = self.surface(ray, hit).geometric_normal;
-        let along_u = match self.triangle(hit.object as usize, hit.primitive as usize, ray.time) {
-            Some([a, b, c]) => {
-                let [s, t, r] = match self.shape(hit.object as usize) {
-                    Shape::Mesh(Mesh { uvs: Some(uvs), indices, .. }) => {
-                        indices[hit.primitive as usize].map(|i| uvs[i as usize])
-                    }
-                    _ => [Vec2::ZERO, Vec2::X, Vec2::Y],
-                };
-                let (d1, d2) = (t - s, r - s);
-                ((b - a) * d2.y - (c - a) * d1.y) * d1.perp_dot(d2).signum()
-            }
-            None => Vec3::Z.cross(normal),
+    pub fn along(&self, ray: &Ray, hit: &Hit) -> [Vec3; 2] {
+        let object = hit.object as usize;
+        let to_world = match &self.objects[object] {
+            Placed::Baked(_) => Affine3A::IDENTITY,
+            Placed::Instance { motion, .. } => motion.at(ray.time),
         };
-        let flat = along_u - normal * along_u.dot(normal);
-        flat.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector())
+        let local = match self.shape(object) {
+            Shape::Mesh(mesh) => {
+                let face = mesh.indices[hit.primitive as usize];
+                let uvs = mesh.uvs.as_ref();
+                let uvs = uvs.map_or([Vec2::ZERO, Vec2::X, Vec2::Y], |uvs| face.map(|i| uvs[i as usize]));
+                along_texture(face.map(|i| mesh.positions[i as usize]), uvs)
+            }
+            Shape::Sphere { center, .. } => {
+                let point = to_world.inverse().transform_point3(ray.origin + ray.direction * hit.distance);
+                // Along the parallel, and down the meridian.
+                let round = Vec3::Z.cross(point - *center);
+                let down = round.normalize_or_zero().cross(point - *center);
+                [round * TAU, down * PI]
+            }
+        };
+        local.map(|v| to_world.transform_vector3(v))
     }
 
     /// The corners of a triangle of an object in the world, at a time; `None` for spheres.
@@ -529,19 +535,38 @@ mod tests {
     }
 
     #[test]
-    fn tangents_follow_the_texture() {
+    fn positions_grow_along_the_texture() {
         crate::embree::load_from_environment().unwrap();
         let Shape::Mesh(mut mesh) = square(0.0) else { unreachable!() };
-        // u grows along y, v along −x.
-        mesh.uvs = Some(mesh.positions.iter().map(|p| Vec2::new(p.y, -p.x)).collect());
-        let geometry =
-            Geometry::new(vec![Shape::Mesh(mesh), square(-1.0)], vec![placed(0, 0.0), placed(1, 5.0)], 1)
-                .unwrap();
-        for (x, expected) in [(0.3, Some(Vec3::Y)), (5.2, None)] {
-            let ray = down(x, 0.1);
-            let tangent = geometry.tangent(&ray, &geometry.closest_hit(&ray).unwrap());
-            assert!((tangent.length() - 1.0).abs() < 1e-6 && tangent.z.abs() < 1e-6);
-            assert!(expected.is_none_or(|e| (tangent - e).length() < 1e-6), "{tangent}");
+        // u grows along y, v along −x, over half the square and all of it.
+        mesh.uvs = Some(mesh.positions.iter().map(|p| Vec2::new(p.y, -0.5 * p.x)).collect());
+        let mirror = Affine3A::from_scale(vec3(1.0, -3.0, 1.0));
+        let mirrored = Affine3A::from_translation(vec3(5.0, 0.0, 0.0)) * mirror;
+        let ball = Shape::Sphere { center: vec3(10.0, 0.0, 0.0), radius: 2.0 };
+        let placements = vec![
+            placed(0, 0.0),
+            Placement { shape: 0, motion: Motion::new(vec![mirrored]).unwrap() },
+            placed(1, 0.0),
+        ];
+        let geometry = Geometry::new(vec![Shape::Mesh(mesh), ball], placements, 1).unwrap();
+        let expected =
+            [(down(0.3, 0.1), [Vec3::Y, Vec3::X * -2.0]), (down(5.2, 0.1), [Vec3::Y * -3.0, Vec3::X * -2.0])];
+        for (ray, along) in expected {
+            let found = geometry.along(&ray, &geometry.closest_hit(&ray).unwrap());
+            assert!((found[0] - along[0]).length() + (found[1] - along[1]).length() < 1e-5, "{found:?}");
+        }
+        // On a sphere by differences of its own coordinates.
+        let at = |x: f32, y: f32| {
+            let ray = down(x, y);
+            let hit = geometry.closest_hit(&ray).unwrap();
+            (geometry.surface(&ray, &hit), geometry.along(&ray, &hit))
+        };
+        let (here, along) = at(11.0, 0.5);
+        for (x, y) in [(11.002, 0.5), (11.0, 0.502)] {
+            let there = at(x, y).0;
+            let d = there.uv - here.uv;
+            let moved = there.position - here.position;
+            assert!((along[0] * d.x + along[1] * d.y - moved).length() < 0.02 * moved.length());
         }
     }
 

@@ -11,7 +11,9 @@ mod motion;
 mod photometry;
 mod scene;
 mod shape;
+pub mod skin;
 mod surface;
+pub mod texture;
 mod ties;
 
 pub use camera::{Camera, CameraError};
@@ -23,4 +25,6 @@ pub use motion::Motion;
 pub use photometry::{Quantity, Source, absolute_spectrum};
 pub use scene::{ImageData, Object, Scene, SceneError};
 pub use shape::{Mesh, Placement, Shape};
-pub use surface::{Hit, Ray, SurfacePoint};
+pub use skin::{ColourTexture, ReliefTexture, Skin, SlopeTexture, TexturePoint};
+pub use surface::{Hit, Ray, SurfacePoint, along_texture};
+pub use texture::{Footprint, Texture, Wrap};

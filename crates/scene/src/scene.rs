@@ -7,6 +7,7 @@ use crate::environment::EnvironmentImage;
 use crate::lamp::{Lamp, LampForm, SurfaceLamp, spot_solid_angle};
 use crate::lamp_chooser::{LampChooser, chooser};
 use crate::photometry::{Source, absolute_spectrum};
+use crate::skin::{Skin, Textures};
 use crate::{Camera, Geometry};
 use glam::{DVec3, Mat3, Vec3};
 use illuminant_color::RgbSystem;
@@ -54,6 +55,8 @@ pub struct Scene {
     pub range: SpectralRange,
     /// What surfaces are made of.
     pub materials: Vec<Material>,
+    /// What images say of each material.
+    pub skins: Vec<Skin>,
     /// What is where.
     pub objects: Vec<Object>,
     /// Where light comes from.
@@ -86,6 +89,7 @@ impl Scene {
             .iter()
             .map(|m| material(m, &curves, range))
             .collect::<Result<Vec<_>, _>>()?;
+        let skins = skins(description, &materials, &curves, images)?;
         if description.objects.len() != geometry.objects() {
             let problem = format!("{} described, {} placed", description.objects.len(), geometry.objects());
             return Err(error("objects", problem));
@@ -128,7 +132,7 @@ impl Scene {
         let around = |l: &Lamp| matches!(l.form, LampForm::Uniform | LampForm::Image(_));
         let surroundings = (0..lamps.len()).filter(|&i| around(&lamps[i])).collect();
         let chooser = chooser(&lamps, &luminous, radius);
-        Ok(Self { geometry, range, materials, objects, lamps, chooser, surroundings, camera })
+        Ok(Self { geometry, range, materials, skins, objects, lamps, chooser, surroundings, camera })
     }
 
     /// The reflectances by which the scene's light is coloured: one for each material.
@@ -261,6 +265,31 @@ fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Resu
     };
     let grain = grain.map(|grain| unit(&place(name), "grain", grain)).transpose()?;
     Ok(Material { grain: grain.map(|grain| grain.to_array()), ..Material::new(name, surface) })
+}
+
+/// What images say of each material.
+fn skins(
+    description: &Description,
+    materials: &[Material],
+    curves: &[Curve],
+    images: &HashMap<String, ImageData>,
+) -> Result<Vec<Skin>, SceneError> {
+    if description.skins.is_empty() {
+        return Ok(vec![Skin::default(); materials.len()]);
+    }
+    if description.skins.len() != materials.len() {
+        let problem = format!("{} described, for {} materials", description.skins.len(), materials.len());
+        return Err(error("skins", problem));
+    }
+    let mut textures = Textures::default();
+    let pairs = description.skins.iter().zip(materials);
+    pairs
+        .map(|(data, material)| {
+            textures
+                .skin(data, &material.surface, curves, images)
+                .map_err(|problem| error(format!("materials.{}", material.name), problem))
+        })
+        .collect()
 }
 
 fn unit(place: &str, key: &str, v: [f32; 3]) -> Result<Vec3, SceneError> {

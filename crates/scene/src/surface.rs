@@ -56,6 +56,19 @@ impl SurfacePoint {
     }
 }
 
+/// How the position grows with the texture coordinates over a triangle, of its corners and theirs; zero where the coordinates do not
+/// span it.
+#[must_use]
+pub fn along_texture([a, b, c]: [Vec3; 3], [s, t, r]: [Vec2; 3]) -> [Vec3; 2] {
+    let (d1, d2) = (t - s, r - s);
+    let determinant = d1.perp_dot(d2);
+    if determinant == 0.0 {
+        return [Vec3::ZERO; 2];
+    }
+    let (e1, e2) = (b - a, c - a);
+    [(e1 * d2.y - e2 * d1.y) / determinant, (e2 * d1.x - e1 * d2.x) / determinant]
+}
+
 /// γ_n, the bound of n roundings (Higham 2002).
 const fn gamma(n: u32) -> f32 {
     let ne = n as f32 * (f32::EPSILON * 0.5);

@@ -1,11 +1,13 @@
 //! A scene in the lanes of one pass.
 
 use crate::passes::Light;
+use crate::sequence::Sequence;
+use crate::skins::SkinLanes;
 use crate::wavelength::Wavelength;
 use glam::Vec3;
-use illuminant_illumination::{Illumination, Index, Prepare, REPRESENTATIVE_NM, Surface};
+use illuminant_illumination::{Illumination, IlluminationModel, Index, Prepare, REPRESENTATIVE_NM, Surface};
 use illuminant_sampling::{Basis, Lanes, Role};
-use illuminant_scene::{LampForm, Scene};
+use illuminant_scene::{LampForm, Scene, TexturePoint};
 use std::ops::Range;
 
 /// The index of refraction of a medium.
@@ -42,6 +44,8 @@ pub struct Pass<const N: usize, M> {
     pub dispersed: Option<usize>,
     /// The materials.
     pub materials: Vec<M>,
+    /// What images say of each material, if they do.
+    pub(crate) skins: Vec<Option<SkinLanes<N, M>>>,
     /// The spectra of the lamps.
     pub emission: Vec<Lanes<N>>,
     /// Where each lane lies in the spectral range, 0 to 1.
@@ -115,6 +119,15 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
                 .zip(brightness)
                 .map(|(material, &b)| M::prepare(material, illumination, b, basis, samples.clone(), range))
                 .collect(),
+            skins: scene
+                .materials
+                .iter()
+                .zip(&scene.skins)
+                .zip(brightness)
+                .map(|((material, skin), &b)| {
+                    SkinLanes::new(skin, material, illumination, b, basis, samples.clone(), range)
+                })
+                .collect(),
             emission: emission.collect(),
             position: lanes(&position),
             vacuum,
@@ -130,6 +143,26 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
             dispersed: companion.map(|_| groups.len()),
             samples,
         }
+    }
+}
+
+impl<const N: usize, M: IlluminationModel<N> + Prepare> Pass<N, M> {
+    /// The material at a point of which images say something. Between two rungs of roughness one is taken by chance.
+    #[inline(never)]
+    pub(crate) fn textured(
+        &self,
+        scene: &Scene,
+        material: usize,
+        point: &TexturePoint,
+        sequence: &mut Sequence,
+    ) -> Option<M> {
+        let (lanes, skin) = (self.skins[material].as_ref()?, &scene.skins[material]);
+        let rung = lanes.mixture(skin, point).map(|mixture| {
+            let [u, ..] = sequence.next4();
+            mixture.lower + usize::from(u < mixture.part)
+        });
+        let colour = lanes.colour(skin, point);
+        Some(lanes.model(&self.materials[material], rung, colour.as_ref()))
     }
 }
 

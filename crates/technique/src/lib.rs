@@ -12,6 +12,7 @@ mod scanline;
 mod scene_products;
 mod sequence;
 mod settings;
+mod skins;
 mod warnings;
 mod wavelength;
 

@@ -7,14 +7,20 @@
 use crate::lanes::Pass;
 use crate::media::Media;
 use crate::sequence::Sequence;
+use crate::skins::perturbed;
 use glam::Vec3;
 use illuminant_illumination::{IlluminationModel, Incidence, Prepare};
 use illuminant_optics::frame::Frame;
 use illuminant_sampling::Lanes;
-use illuminant_scene::{Hit, Ray, Scene, SurfacePoint};
+use illuminant_scene::{Hit, Ray, Scene, SurfacePoint, TexturePoint};
 
 /// After this many segments a path may be ended by chance.
 const ROULETTE_FROM: u32 = 5;
+
+/// The part of a pixel that one path sees of a texture: many paths share a pixel.
+const OF_PIXEL: f32 = 0.5;
+/// The part of a lobe that one path sees of a texture behind it.
+const OF_LOBE: f32 = 0.125;
 
 /// How paths are followed.
 #[derive(Clone, Copy, Debug)]
@@ -143,6 +149,9 @@ struct State<const N: usize> {
     origin: Option<(Vec3, Vec3, f32)>,
     /// Where the next vertex looks on a lamp.
     u_lamp: [f32; 2],
+    /// The cone of light that the path stands for (Amanatides 1984; Akenine-Möller et al. 2019): its width where the ray begins,
+    /// and how it grows with distance.
+    cone: [f32; 2],
 }
 
 impl PathTracer {
@@ -173,6 +182,7 @@ impl PathTracer {
             bundle: 0,
             origin: None,
             u_lamp,
+            cone: [0.0, OF_PIXEL * scene.camera.pixel_angle()],
         };
         for segment in 1..=self.depth {
             probe.closest(&path.ray);
@@ -185,6 +195,7 @@ impl PathTracer {
                 path.throughput *= kept;
             }
             let point = geometry.surface(&path.ray, &hit);
+            path.cone[0] += path.cone[1] * hit.distance;
             let object = &scene.objects[hit.object as usize];
             let before = if P::VERTICES { sum(radiance) } else { Lanes::default() };
             let arriving = path.throughput;
@@ -205,6 +216,7 @@ impl PathTracer {
                     pass,
                     group_of,
                     &mut path,
+                    &hit,
                     &point,
                     object.material,
                     segment,
@@ -236,6 +248,7 @@ impl PathTracer {
         pass: &Pass<N, M>,
         group_of: &[usize],
         path: &mut State<N>,
+        hit: &Hit,
         point: &SurfacePoint,
         material: usize,
         segment: u32,
@@ -243,11 +256,19 @@ impl PathTracer {
         radiance: &mut [Lanes<N>],
         probe: &mut P,
     ) -> bool {
-        let model = &pass.materials[material];
         let to_viewer = -path.ray.direction;
         // A shading normal that faces away where the surface faces the viewer is no normal to shade with.
         let facing = point.normal.dot(to_viewer) * point.geometric_normal.dot(to_viewer) > 0.0;
-        let normal = if facing { point.normal } else { point.geometric_normal };
+        let mut normal = if facing { point.normal } else { point.geometric_normal };
+        let mut own = None;
+        if !scene.skins[material].is_bare() {
+            let along = scene.geometry.along(&path.ray, hit);
+            let [width, _] = path.cone;
+            let seen = TexturePoint::new(point.uv, along, width, path.ray.direction, point.geometric_normal);
+            normal = perturbed(scene, material, &seen, normal, to_viewer);
+            own = pass.textured(scene, material, &seen, sequence);
+        }
+        let model = own.as_ref().unwrap_or(&pass.materials[material]);
         let frame = match scene.materials[material].grain {
             Some(grain) => Frame::along(normal, Vec3::from(grain)),
             None => Frame::from_normal(normal),
@@ -311,6 +332,8 @@ impl PathTracer {
         path.u_lamp = next_lamp;
         path.ray = Ray { origin: point.offset(direction), direction, time: path.ray.time };
         path.origin = drawn.pdf.map(|pdf| (point.position, normal, pdf));
+        // A drawn direction stands for 1/pdf of solid angle.
+        path.cone[1] += drawn.pdf.map_or(0.0, |pdf| OF_LOBE * pdf.max(1e-3).sqrt().recip());
         true
     }
 

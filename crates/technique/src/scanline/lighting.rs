@@ -1,11 +1,12 @@
 //! What reaches a point from lamps, for techniques that ask lamps alone.
 
 use crate::lanes::Pass;
+use crate::skins::{Mixture, perturbed};
 use glam::Vec3;
-use illuminant_illumination::{IlluminationModel, Incidence};
+use illuminant_illumination::{IlluminationModel, Incidence, Prepare};
 use illuminant_optics::frame::Frame;
 use illuminant_sampling::Lanes;
-use illuminant_scene::{LampForm, Scene};
+use illuminant_scene::{LampForm, Scene, TexturePoint};
 use std::f32::consts::FRAC_1_PI;
 
 /// The parts of a radiance: ambient, diffuse, specular, transmitted, emitted. Each has a bundle for every group of lamps.
@@ -52,6 +53,8 @@ pub(crate) struct Place {
     pub front: bool,
     /// Unit geometric normal.
     pub geometric: Vec3,
+    /// Where images are looked up, if they say something of the material.
+    pub texture: Option<TexturePoint>,
 }
 
 /// The light of a scene in the lanes of one pass.
@@ -90,7 +93,7 @@ pub(crate) fn ambient<const N: usize, M>(
     all
 }
 
-impl<const N: usize, M: IlluminationModel<N>> Lighting<'_, N, M> {
+impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
     /// Adds `weight` times the radiance from a direction in which nothing is followed: that of the surroundings (reflection
     /// mapping, Blinn and Newell 1976; book figure 4.2), else what stands for all light.
     pub fn add_around(&self, direction: Vec3, weight: &Lanes<N>, to: &mut [Lanes<N>]) {
@@ -112,12 +115,34 @@ impl<const N: usize, M: IlluminationModel<N>> Lighting<'_, N, M> {
     /// Finds the parts of the radiance that a surface sends to the viewer, one after the other with a bundle for each group of
     /// lamps; returns what of the radiance behind it comes through.
     pub fn shade(&self, place: &Place, parts: &mut Vec<Lanes<N>>) -> Lanes<N> {
+        let material = self.scene.objects[place.object].material;
+        let base = &self.pass.materials[material];
+        let Some(point) = &place.texture else { return self.shade_with(base, place, parts) };
+        let normal = perturbed(self.scene, material, point, place.normal, place.to_viewer);
+        let place = Place { normal, ..*place };
+        let Some(lanes) = &self.pass.skins[material] else { return self.shade_with(base, &place, parts) };
+        let skin = &self.scene.skins[material];
+        let colour = lanes.colour(skin, point);
+        let mixture = lanes.mixture(skin, point);
+        let of_rung = |rung: Option<usize>, parts: &mut Vec<Lanes<N>>| {
+            self.shade_with(&lanes.model(base, rung, colour.as_ref()), &place, parts)
+        };
+        let through = of_rung(mixture.map(|m| m.lower), parts);
+        let Some(Mixture { lower, part }) = mixture.filter(|m| m.part > 0.0) else { return through };
+        let mut upper = Vec::new();
+        let through_upper = of_rung(Some(lower + 1), &mut upper);
+        let mix = |a: Lanes<N>, b: Lanes<N>| a * (1.0 - part) + b * part;
+        parts.iter_mut().zip(upper).for_each(|(part, upper)| *part = mix(*part, upper));
+        mix(through, through_upper)
+    }
+
+    /// The same with a model given.
+    fn shade_with(&self, model: &M, place: &Place, parts: &mut Vec<Lanes<N>>) -> Lanes<N> {
         let groups = self.ambient.len();
         parts.clear();
         parts.resize(PARTS * groups, Lanes::default());
         let (scene, pass) = (self.scene, self.pass);
         let object = &scene.objects[place.object];
-        let model = &pass.materials[object.material];
         // The normal on the side of the viewer; one that leans away from it is looked at along the surface.
         let frame = match scene.materials[object.material].grain {
             Some(grain) => Frame::along(place.normal, Vec3::from(grain)),

@@ -16,10 +16,10 @@ use crate::path::Primary;
 use crate::sequence::Sequence;
 use crate::settings::{Interpolation, Layer, Settings, Technique};
 use edges::{Corner, EdgeTable, Span};
-use glam::Vec3;
-use illuminant_illumination::IlluminationModel;
+use glam::{Vec2, Vec3};
+use illuminant_illumination::{IlluminationModel, Prepare};
 use illuminant_sampling::Lanes;
-use illuminant_scene::{Camera, Scene};
+use illuminant_scene::{Camera, Scene, TexturePoint, along_texture};
 use lighting::{Lighting, PARTS, Place, ambient};
 use projection::{Polygon, Projection};
 use rayon::prelude::*;
@@ -55,6 +55,10 @@ pub(crate) struct Scanline<const N: usize, M> {
     group_of: Vec<usize>,
     groups: usize,
     shadows: bool,
+    /// For each object whether images say something of its material.
+    textured: Vec<bool>,
+    /// The angle across a pixel.
+    pixel_angle: f32,
 }
 
 /// Appends the values that are interpolated: parts of radiance or their sum, and what is seen through.
@@ -99,7 +103,7 @@ fn side(vertex: u32, polygon: &Polygon) -> usize {
     2 * vertex as usize + usize::from(!polygon.front)
 }
 
-impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
+impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
     pub fn new(
         scene: &Scene,
         settings: &Settings,
@@ -123,6 +127,8 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             group_of: group_of.to_vec(),
             groups: group_of.iter().max().map_or(0, |last| last + 1),
             shadows: settings.shadows,
+            textured: scene.objects.iter().map(|object| !scene.skins[object.material].is_bare()).collect(),
+            pixel_angle: scene.camera.pixel_angle(),
             surfaces,
             projection,
             passes: Vec::new(),
@@ -142,9 +148,18 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
     }
 
     /// A point of a polygon as it is shaded.
-    fn place(&self, polygon: &Polygon, position: Vec3, normal: Vec3) -> Place {
+    fn place(&self, polygon: &Polygon, position: Vec3, normal: Vec3, uv: Vec2) -> Place {
         let face = &self.surfaces.faces[polygon.face as usize];
+        let object = face.object as usize;
+        let texture = self.textured[object].then(|| {
+            let corners = face.corners.map(|i| &self.surfaces.vertices[i as usize]);
+            let along = along_texture(corners.map(|c| c.position), corners.map(|c| c.uv));
+            let from_eye = position - self.projection.eye;
+            let width = self.pixel_angle * from_eye.length();
+            TexturePoint::new(uv, along, width, from_eye.normalize_or(-face.normal), face.normal)
+        });
         Place {
+            texture,
             position,
             normal,
             object: face.object as usize,
@@ -166,7 +181,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             values
         };
         let (projection, faces) = (&self.projection, &self.surfaces.faces);
-        let place = |polygon: &Polygon, position, normal| self.place(polygon, position, normal);
+        let place = |polygon: &Polygon, position, normal, uv| self.place(polygon, position, normal, uv);
         let values = match self.technique {
             Technique::Constant => projection
                 .polygons
@@ -174,8 +189,10 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
                 .map(|polygon| {
                     let corners = projection.corners_of(polygon);
                     let sum: Vec3 = corners.iter().map(|&i| projection.vertices[i as usize].position).sum();
+                    let uv: Vec2 = corners.iter().map(|&i| projection.vertices[i as usize].uv).sum();
                     let normal = faces[polygon.face as usize].normal;
-                    shade(&place(polygon, sum / corners.len() as f32, normal))
+                    let count = corners.len() as f32;
+                    shade(&place(polygon, sum / count, normal, uv / count))
                 })
                 .collect(),
             Technique::Gouraud => {
@@ -193,7 +210,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
                     .map(|(i, &number)| {
                         let vertex = &projection.vertices[i / 2];
                         projection.polygons.get(number as usize).map_or_else(Vec::new, |polygon| {
-                            shade(&place(polygon, vertex.position, vertex.normal))
+                            shade(&place(polygon, vertex.position, vertex.normal, vertex.uv))
                         })
                     })
                     .collect()
@@ -211,6 +228,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
                 let object = self.surfaces.faces[polygon.face as usize].object as usize;
                 N * (self.parts * self.groups + usize::from(self.transparent[object]))
             }
+            _ if self.textured[self.surfaces.faces[polygon.face as usize].object as usize] => 8,
             _ => 6,
         }
     }
@@ -245,6 +263,9 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
                 let vertex = &self.projection.vertices[corner as usize];
                 scratch.extend((vertex.normal * factor).to_array());
                 scratch.extend((vertex.position * factor).to_array());
+                if width == 8 {
+                    scratch.extend((vertex.uv * factor).to_array());
+                }
             }
         }
         let places = corners.iter().zip(scratch.chunks(width + 1)).map(|(&corner, values)| {
@@ -279,7 +300,11 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             _ => {
                 let vector = |i: usize| Vec3::new(values[i], values[i + 1], values[i + 2]) * factor;
                 let face = &self.surfaces.faces[polygon.face as usize];
-                let place = self.place(polygon, vector(4), vector(1).normalize_or(face.normal));
+                let uv = match values {
+                    [.., u, v] if values.len() == 9 => Vec2::new(*u, *v) * factor,
+                    _ => Vec2::ZERO,
+                };
+                let place = self.place(polygon, vector(4), vector(1).normalize_or(face.normal), uv);
                 let (parts, kept) = scratch;
                 let through = lighting.shade(&place, parts);
                 kept.clear();
@@ -307,7 +332,7 @@ struct Band {
 
 const NOBODY: u32 = u32::MAX;
 
-impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
+impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
     /// Finds what is nearest in each pixel of a scanline.
     fn resolve_depth(&self, band: &mut Band, columns: [i32; 2]) {
         let size = (columns[1] - columns[0]) as usize;
@@ -496,7 +521,7 @@ fn pixel_emits(job: &Job, object: usize, normal: Vec3, direction: Vec3) -> bool 
     scene.objects[object].lamp.is_some_and(|lamp| scene.lamps[lamp].emits(normal, direction))
 }
 
-impl<const N: usize, M: IlluminationModel<N>> TileRenderer for Scanline<N, M> {
+impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Scanline<N, M> {
     fn tile(&self, job: &Job, tile: &mut TileFilm, samples: Range<u64>) -> TileCounts {
         let mut result = TileCounts::default();
         let mut band = Band::default();

@@ -107,6 +107,7 @@ impl Projection {
         let vertex = Vertex {
             position: a.position.lerp(b.position, t),
             normal: a.normal.lerp(b.normal, t).normalize_or(a.normal),
+            uv: a.uv.lerp(b.uv, t),
         };
         self.vertices.push(vertex);
         self.screen.push(project(matrix, vertex.position).1);

@@ -1,6 +1,6 @@
 //! All surfaces of a scene as triangles in the world.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use illuminant_scene::Scene;
 
 /// A corner in the world.
@@ -9,6 +9,8 @@ pub(crate) struct Vertex {
     pub position: Vec3,
     /// Unit, for shading.
     pub normal: Vec3,
+    /// Texture coordinates; 0 where there are none.
+    pub uv: Vec2,
 }
 
 /// A triangle.
@@ -35,9 +37,14 @@ impl Surfaces {
             let mesh = scene.geometry.world_mesh(object, time);
             let first = all.vertices.len() as u32;
             let smooth = mesh.normals.as_ref();
+            let uv = |i: usize| mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[i]);
             if let Some(normals) = smooth {
-                let vertices = mesh.positions.iter().zip(normals);
-                all.vertices.extend(vertices.map(|(&position, &normal)| Vertex { position, normal }));
+                let vertices = mesh.positions.iter().zip(normals).enumerate();
+                all.vertices.extend(vertices.map(|(i, (&position, &normal))| Vertex {
+                    position,
+                    normal,
+                    uv: uv(i),
+                }));
             }
             for face in &mesh.indices {
                 let [a, b, c] = face.map(|i| mesh.positions[i as usize]);
@@ -46,7 +53,11 @@ impl Surfaces {
                     face.map(|i| first + i)
                 } else {
                     let next = all.vertices.len() as u32;
-                    all.vertices.extend([a, b, c].map(|position| Vertex { position, normal }));
+                    all.vertices.extend(face.map(|i| Vertex {
+                        position: mesh.positions[i as usize],
+                        normal,
+                        uv: uv(i as usize),
+                    }));
                     [next, next + 1, next + 2]
                 };
                 all.faces.push(Face { corners, object: object as u32, normal });
