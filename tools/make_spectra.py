@@ -459,6 +459,72 @@ def cornell() -> Iterator[Table]:
     )
 
 
+def rgb_reflectances() -> Iterator[Table]:
+    """Three reflectances that add up to any colour of sRGB (the idea of Mallett and Yuksel 2019).
+
+    They are the smoothest curves (least sum of squared second differences) that are nowhere negative, add up to 1 at
+    every wavelength, and are the primaries of sRGB to the CIE 1931 observer under D65.
+    """
+    from illuminant import spectra
+    from illuminant.core import core
+
+    knots, fine = np.arange(380.0, 781.0, 5.0), np.arange(380.0, 781.0)
+    light = spectra.load("D65").at(fine)
+    count = len(knots)
+    hats = np.stack([np.interp(fine, knots, row) for row in np.eye(count)])
+    xyz = np.stack([core().xyz(fine, hat * light, "zero") for hat in hats], axis=1)
+    xyz /= xyz[1].sum()
+    chromaticities = np.array([[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]])
+    primaries = np.stack([np.append(xy, 1.0 - xy.sum()) / xy[1] for xy in chromaticities], axis=1)
+    targets = primaries * np.linalg.solve(primaries, xyz.sum(axis=1))
+    bend = np.diff(np.eye(count), 2, axis=0)
+    size = 3 * count
+    hessian = np.kron(np.eye(3), bend.T @ bend) + 1e-9 * np.eye(size)
+    # The third primary follows from the other two and the sum.
+    rows = [np.kron(np.eye(3)[i], xyz) for i in range(2)] + [np.tile(np.eye(count), (1, 3))]
+    equal, wanted = np.concatenate(rows), np.concatenate([targets[:, 0], targets[:, 1], np.ones(count)])
+    # Primal-dual active sets: what would be negative is held at 0 until it would grow.
+    held = np.zeros(size, bool)
+    for _ in range(100):
+        free = ~held
+        matrix = equal[:, free]
+        keep = np.linalg.norm(matrix, axis=1) > 0
+        system = np.block(
+            [
+                [hessian[np.ix_(free, free)], matrix[keep].T],
+                [matrix[keep], np.zeros((keep.sum(), keep.sum()))],
+            ]
+        )
+        found = np.linalg.lstsq(system, np.append(np.zeros(free.sum()), wanted[keep]), rcond=1e-14)[0]
+        values = np.zeros(size)
+        values[free] = found[: free.sum()]
+        force = hessian @ values
+        force[held] += equal[keep][:, held].T @ found[free.sum() :]
+        turned = np.where(held, force < -1e-12, values < -1e-12)
+        if not turned.any():
+            break
+        held ^= turned
+    curves = np.round(values.reshape(3, count).clip(0.0), 6)
+    curves[np.argmax(curves, axis=0), np.arange(count)] += 1.0 - curves.sum(axis=0)
+    yield table(
+        "rgb/srgb.csv",
+        [int(w) for w in knots],
+        {
+            name: [round(float(v), 6) for v in row]
+            for name, row in zip(("red", "green", "blue"), curves, strict=True)
+        },
+        name="reflectances that add up to the colours of sRGB",
+        quantity="reflectance",
+        unit="1",
+        source="computed: the smoothest fractions that are the primaries of sRGB under D65 and add up to 1",
+        provenance="the idea of I. Mallett and C. Yuksel, Spectral Primary Decomposition for Rendering with sRGB"
+        " Reflectance (2019), without their numbers",
+        licence="of this project",
+        outside="hold",
+        curves=[Curve(f"sRGB/{name}", name) for name in ("red", "green", "blue")],
+    )
+
+
 MAKERS: tuple[Callable[[], Iterator[Table]], ...] = (
     observers,
     illuminants,
@@ -469,6 +535,7 @@ MAKERS: tuple[Callable[[], Iterator[Table]], ...] = (
     book,
     book_observers,
     cornell,
+    rgb_reflectances,
 )
 
 

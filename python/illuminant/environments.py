@@ -16,13 +16,14 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from illuminant import pixels
 from illuminant.errors import ImageError
 from illuminant.schema import MAX_PIXELS
 
 if TYPE_CHECKING:
     import numpy as np
 
-__all__ = ["checked", "decode_srgb", "read"]
+__all__ = ["checked", "read"]
 
 
 def read(path: str | os.PathLike[str]) -> np.ndarray:
@@ -34,42 +35,18 @@ def read(path: str | os.PathLike[str]) -> np.ndarray:
     Raises:
         ImageError: the file is missing or damaged, or the image cannot be an environment; names the file.
     """
-    import OpenImageIO as oiio
-
-    path = Path(path)
-    if not path.is_file():
-        raise ImageError(f"{path}: there is no such file")
-    source = oiio.ImageInput.open(str(path))
-    if source is None:
-        raise ImageError(f"{path}: cannot be read as an image ({_clause(oiio.geterror())})")
+    values, whole_numbers = pixels.read(path)
     try:
-        spec = source.spec()
-        if spec.width * spec.height > MAX_PIXELS:
-            raise ImageError(
-                f"{path}: has {spec.width} × {spec.height} pixels; at most {MAX_PIXELS} can be used"
-            )
-        pixels = source.read_image(0, 0, 0, spec.nchannels, "float")
-        if pixels is None:
-            raise ImageError(f"{path}: is damaged ({_clause(source.geterror())})")
-        names = [name.upper() for name in spec.channelnames]
-        whole_numbers = spec.format.basetype not in (oiio.HALF, oiio.FLOAT, oiio.DOUBLE)
-    finally:
-        source.close()
-    if {"R", "G", "B"} <= set(names):
-        pixels = pixels[..., [names.index(name) for name in "RGB"]]
-    elif pixels.shape[-1] < 3:
-        pixels = pixels[..., [0, 0, 0]]
-    try:
-        return checked(decode_srgb(pixels) if whole_numbers else pixels)
+        return checked(pixels.decode_srgb(values) if whole_numbers else values)
     except ImageError as error:
-        raise ImageError(f"{path}: {error}") from None
+        raise ImageError(f"{Path(path)}: {error}") from None
 
 
-def checked(pixels: Any) -> np.ndarray:
+def checked(values: Any) -> np.ndarray:
     """An array as an environment image.
 
     Args:
-        pixels: (h, w, 3) linear RGB, at least 1 × 2.
+        values: (h, w, 3) linear RGB, at least 1 × 2.
 
     Returns:
         float32 (h, w, 3).
@@ -80,7 +57,7 @@ def checked(pixels: Any) -> np.ndarray:
     import numpy as np
 
     try:
-        image = np.array(pixels, dtype=np.float32, order="C")
+        image = np.array(values, dtype=np.float32, order="C")
     except (TypeError, ValueError):
         image = np.zeros(0, np.float32)
     if image.ndim != 3 or image.shape[2] != 3 or not image.size:
@@ -99,17 +76,3 @@ def checked(pixels: Any) -> np.ndarray:
     if not image.any():
         raise ImageError("is black everywhere")
     return image
-
-
-def decode_srgb(encoded: np.ndarray) -> np.ndarray:
-    """Linear values from sRGB's (IEC 61966-2-1), both from 0 to 1."""
-    import numpy as np
-
-    encoded = np.asarray(encoded, np.float64)
-    return np.where(
-        encoded <= 0.04045, encoded / 12.92, ((np.maximum(encoded, 0.04045) + 0.055) / 1.055) ** 2.4
-    )
-
-
-def _clause(text: str) -> str:
-    return " ".join(text.split()).rstrip(".") or "unknown reason"

@@ -14,7 +14,7 @@ import re
 import tomllib
 from typing import Any, get_args
 
-from illuminant import schema
+from illuminant import schema, texture_schema
 from illuminant.quantities import FITTING, QUANTITIES
 from illuminant.report import kind_of
 
@@ -76,6 +76,23 @@ A spectrum is checked for its use: a reflectance is a fraction from 0 to 1, ligh
 above 0. RGB must say its role, and is refused for n, k and absorption, which it does not determine.
 """
 
+IMAGES = """\
+## Images on surfaces
+
+A reflectance, a pigment, a transmittance or a roughness can be an image, and an image can perturb the normal. Images
+lie over the unit square of the texture coordinates that a mesh brings; rectangles, boxes, discs and spheres have their
+own (on a sphere u runs round its z axis, and v from +z to -z). All techniques look them up alike, as the mean over
+what a pixel sees of them.
+
+```toml
+[materials.tiles]
+kind = "coated"
+reflectance = { image = "images/tiles.png", repeat = [4.0, 4.0] }
+roughness = { image = "images/worn.png", black = 0.05, white = 0.4 }
+bump = { image = "images/grout.png", height = 0.002, repeat = [4.0, 4.0] }
+```
+"""
+
 SHAPES = """\
 A built-in rectangle, box or disc is a mesh of triangles; a disc is a polygon of 128 sides with the area of the disc. A
 sphere stays a true sphere. The front of a face is the side from which its corners run anticlockwise; box and sphere
@@ -106,6 +123,11 @@ def scene_file_reference() -> str:
         _keys(schema.SpectrumTable),
         "## Materials\n\nA material is a table `[materials.NAME]`; `kind` says which one it is.\n",
         *(_kind("materials", name, model) for name, model in schema.KINDS_OF_MATERIAL.items()),
+        IMAGES,
+        _table("An image in place of a reflectance", texture_schema.ColourImage),
+        _table("An image in place of a roughness", texture_schema.SlopeImage),
+        _table("`bump`", texture_schema.HeightImage),
+        _table("`normal_map`", texture_schema.NormalImage),
         "## Objects\n",
         (schema.Object.__doc__ or "").strip().replace("\n    ", "\n") + "\n",
         SHAPES,
@@ -169,6 +191,10 @@ def _type(field: Any, name: str) -> str:
     annotation = field.annotation
     text = repr(annotation)
     for form, words in {
+        "ColourImage": "spectrum or image",
+        "SlopeImage": "number or image",
+        "HeightImage": "table",
+        "NormalImage": "table",
         "SpectrumTable": "spectrum",
         "MeshTable": "text or table",
         "_axis_form": "`x`, `y`, `z` or 3 numbers",

@@ -25,6 +25,8 @@ from illuminant.quantities import FITTING, QUANTITIES
 from illuminant.report import Path, Report, found, read_table
 from illuminant.schema import KINDS_OF_LIGHT, KINDS_OF_MATERIAL, MAX_PIXELS, Camera, Table
 from illuminant.spectra import Spectrum
+from illuminant.texture_schema import ColourImage, SlopeImage
+from illuminant.textures import Textures
 
 if TYPE_CHECKING:
     import numpy as np
@@ -43,9 +45,10 @@ NAMES_OF_SOURCES = {
 
 @dataclass(frozen=True)
 class Material:
-    """A material of the description, and what its objects emit (None: nothing)."""
+    """A material of the description, what images say of it, and what its objects emit (None: nothing)."""
 
     entry: dict[str, Any]
+    skin: dict[str, Any]
     emission: dict[str, Any] | None
 
 
@@ -68,6 +71,15 @@ class Resolver:
         self.directory = FilePath(directory)
         self.curves = Curves(report, frame.get("spectra"), directory, (first, last))
         self.images: dict[str, np.ndarray] = {}
+        self.textures = Textures(report, self.curves, directory)
+
+    def all_images(self) -> dict[str, np.ndarray]:
+        """The images of environments and of surfaces, by the names that the description has for them."""
+        return self.images | self.textures.images
+
+    def warnings(self) -> list[str]:
+        """Sentences on what was accepted but may surprise."""
+        return [*self.curves.warnings, *self.textures.warnings, *self.curves.mixture()]
 
     # --- materials ---------------------------------------------------------------------------------------------
 
@@ -81,11 +93,12 @@ class Resolver:
         if table.kind == "named":
             return self._named(name, table, bad, path)
         entry: dict[str, Any] = {"name": name, "kind": table.kind}
+        skin: dict[str, Any] = {}
         emission = None
         if table.kind == "diffuse":
-            entry["reflectance"] = self._spectrum(table, bad, "reflectance", "reflectance", path)
+            entry["reflectance"] = self._colour(table, bad, "reflectance", path, skin)
         elif table.kind == "filter":
-            entry["transmittance"] = self._spectrum(table, bad, "transmittance", "reflectance", path)
+            entry["transmittance"] = self._colour(table, bad, "transmittance", path, skin)
         elif table.kind == "conductor":
             for part in ("n", "k"):
                 entry[part] = self._part_of(table, bad, "metal", part, path)
@@ -97,7 +110,7 @@ class Resolver:
             entry["dispersion"] = table.dispersion
             self._one_way(raw, ("medium", "n"), path)
         elif table.kind == "coated":
-            entry |= self._coated(table, raw, bad, path)
+            entry |= self._coated(table, raw, bad, path, skin)
         else:
             black = 0.0 if table.reflectance is None else table.reflectance
             entry["kind"] = "diffuse"
@@ -110,7 +123,8 @@ class Resolver:
             }
         if table.kind == "conductor":
             self._conductor_form(raw, path)
-        return None if len(self.report.problems) > before else Material(entry, emission)
+        self._on_surface(table, raw, bad, path, skin)
+        return None if len(self.report.problems) > before else Material(entry, skin, emission)
 
     def _named(self, name: str, table: Any, bad: set[str], path: Path) -> Material | None:
         """A material in words, by the table of the scene file that they stand for."""
@@ -131,9 +145,12 @@ class Resolver:
         if grain is not None and not any(grain) and "grain" not in bad:
             self.report.add((*path, "grain"), "must have a length", kind="direction")
         if table.finish is None or "finish" in bad:
-            across = table.roughness if table.roughness_across is None else table.roughness_across
+            along = table.roughness
+            if isinstance(along, SlopeImage):
+                along = 0.5 * (along.black + along.white)
+            across = along if table.roughness_across is None else table.roughness_across
             sigma = None if table.sigma_nm is None else float(table.sigma_nm)
-            slope = [float(table.roughness), float(across)]
+            slope = [float(along), float(across)]
             return {"slope": slope, "sigma_nm": sigma, "shape": shape, "grain": grain}
         for key in ("roughness", "roughness_across", "sigma_nm"):
             if key in raw:
@@ -148,7 +165,9 @@ class Resolver:
         sigma = None if found.sigma_nm is None else max(found.sigma_nm)
         return {"slope": list(found.slope), "sigma_nm": sigma, "shape": shape, "grain": grain}
 
-    def _coated(self, table: Any, raw: dict[str, Any], bad: set[str], path: Path) -> dict[str, Any]:
+    def _coated(
+        self, table: Any, raw: dict[str, Any], bad: set[str], path: Path, skin: dict[str, Any]
+    ) -> dict[str, Any]:
         """A vehicle over a pigment or metal."""
         if "medium" in raw and "n" in raw:
             self.report.add((*path, "n"), "is given twice: medium brings its own n", kind="exactly-one")
@@ -164,10 +183,10 @@ class Resolver:
             message = "pigment, reflectance or metal is missing"
             self.report.add(path, message, 'for example reflectance = "ColorChecker/red"', "missing-key")
         if "reflectance" in raw:
-            paint = self._spectrum(table, bad, "reflectance", "reflectance", path)
+            paint = self._colour(table, bad, "reflectance", path, skin, finished=True)
             entry["pigment"] = None if paint is None or index is None else materials.pigment_of(paint, index)
         else:
-            entry["pigment"] = self._spectrum(table, bad, "pigment", "reflectance", path, 0.0)
+            entry["pigment"] = self._colour(table, bad, "pigment", path, skin, default=0.0)
         entry["film"] = None
         if ("absorption" in raw) != ("thickness" in raw):
             missing = "thickness" if "absorption" in raw else "absorption"
@@ -190,6 +209,45 @@ class Resolver:
                 if key in raw:
                     self.report.add((*path, key), "goes with metal", kind="unknown-key")
         return entry
+
+    def _colour(
+        self,
+        table: Any,
+        bad: set[str],
+        key: str,
+        path: Path,
+        skin: dict[str, Any],
+        *,
+        finished: bool = False,
+        default: Any = None,
+    ) -> Spectrum | None:
+        """A fraction of light, or the mean of an image of it, which then goes to the skin."""
+        value = getattr(table, key)
+        if not isinstance(value, ColourImage) or key in bad:
+            return self._spectrum(table, bad, key, "reflectance", path, default)
+        resolved = self.textures.colour(value, (*path, key), finished=finished)
+        if resolved is None:
+            return None
+        mean, skin["colour"] = resolved
+        return mean
+
+    def _on_surface(
+        self, table: Any, raw: dict[str, Any], bad: set[str], path: Path, skin: dict[str, Any]
+    ) -> None:
+        """Images of roughness and of relief."""
+        roughness = getattr(table, "roughness", None)
+        if isinstance(roughness, SlopeImage) and "roughness" not in bad:
+            if "roughness_across" in raw:
+                message = "does not go with an image of roughness, which is the same along and across"
+                self.report.add((*path, "roughness_across"), message, kind="exactly-one")
+            skin["slope"] = self.textures.slope(roughness, (*path, "roughness"))
+        if "bump" in raw and "normal_map" in raw:
+            message = "is given twice: bump perturbs the normal too"
+            self.report.add((*path, "normal_map"), message, kind="exactly-one")
+        for key in ("bump", "normal_map"):
+            image = getattr(table, key, None)
+            if image is not None and key not in bad:
+                skin["relief"] = self.textures.relief(image, (*path, key), self.unit_m)
 
     def _conductor_form(self, raw: dict[str, Any], path: Path) -> None:
         if "metal" in raw:
@@ -461,7 +519,7 @@ def indexed(description: dict[str, Any]) -> dict[str, Any]:
             return {key: walked[key] for key in value}
         return [walk(one) for one in value] if isinstance(value, list) else value
 
-    parts = {key: walk(description[key]) for key in ("materials", "objects", "lights", "camera")}
+    parts = {key: walk(description[key]) for key in ("materials", "skins", "objects", "lights", "camera")}
     return {"range": description["range"], "curves": curves, **parts}
 
 
@@ -476,7 +534,11 @@ def in_place(description: Mapping[str, Any]) -> dict[str, Any]:
     def walk(value: Any) -> Any:
         if isinstance(value, dict):
             return {
-                key: curves[one] if key in keys and one is not None else walk(one)
+                key: [curves[number] for number in one]
+                if key == "basis"
+                else curves[one]
+                if key in keys and one is not None
+                else walk(one)
                 for key, one in value.items()
             }
         return [walk(one) for one in value] if isinstance(value, list) else value

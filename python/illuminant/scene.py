@@ -248,6 +248,7 @@ class Scene:
                 continue
             index = names.index(name)
             parts["materials"][index] = resolved.entry
+            parts["skins"][index] = resolved.skin
             for thing in parts["objects"]:
                 if thing["material"] == index:
                     thing["emission"] = copy.copy(resolved.emission)
@@ -265,7 +266,13 @@ class Scene:
         if not report.problems and not scene_file.shines(parts):
             report.add((), scene_file.NO_LIGHT, kind="no-light")
         report.raise_if_any()
-        arrays |= {f"image:{name}": image for name, image in resolver.images.items()}
+        arrays |= {f"image:{name}": image for name, image in resolver.all_images().items()}
+        # Images of surfaces that no material shows any more.
+        shown = json.dumps(parts["skins"], default=lambda spectrum: spectrum.name)
+        unused = [
+            name for name in arrays if name.startswith("image:texture ") and json.dumps(name[6:]) not in shown
+        ]
+        arrays = {name: array for name, array in arrays.items() if name not in unused}
         result = Scene(
             indexed(parts),
             arrays,
@@ -273,7 +280,7 @@ class Scene:
             render_defaults=self.render_defaults,
             frame=frame,
             path=self.path,
-            warnings=[*self.warnings, *resolver.curves.warnings, *resolver.curves.mixture()],
+            warnings=[*self.warnings, *resolver.warnings()],
         )
         result._geometry = self._geometry
         return result

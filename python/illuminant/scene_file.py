@@ -192,6 +192,11 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
     tabled = all(isinstance(data.get(key, {}), dict) for key in ("materials", "objects", "lights"))
     if tabled and not lights and not any(name in used for name in emitters):
         report.add((), NO_LIGHT, kind="no-light")
+    for name, one in placed.items():
+        material = materials.get(one[1]) if one else None
+        if one and material and material.skin and not {"uvs", "sphere"} & set(one[0].arrays):
+            message = f'"{one[1]}" has an image, and the mesh of this object no texture coordinates'
+            report.add(("objects", name, "material"), message, kind="texture-coordinates")
     report.raise_if_any()
 
     numbers = {name: i for i, name in enumerate(materials)}
@@ -206,11 +211,13 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
     parts = {
         "range": frame["range_nm"],
         "materials": [material.entry for material in materials.values() if material],
+        "skins": [material.skin for material in materials.values() if material],
         "objects": objects,
         "lights": lights,
         "camera": camera,
     }
-    arrays = _arrays(arrangement) | {f"image:{name}": image for name, image in resolver.images.items()}
+    images = {f"image:{name}": image for name, image in resolver.all_images().items()}
+    arrays = _arrays(arrangement) | images
     frame["spectra"] = resolver.curves.without_files()
     return Scene(
         indexed(parts),
@@ -219,7 +226,7 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
         render_defaults=render.model_dump(exclude_none=True) if render else {},
         frame=frame,
         path=report.file or None,
-        warnings=[*resolver.curves.warnings, *resolver.curves.mixture()],
+        warnings=resolver.warnings(),
     )
 
 

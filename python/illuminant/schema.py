@@ -18,11 +18,18 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from illuminant.object_schema import Box, Disc, MeshTable, Object, Rectangle, Rotation, Sphere
 from illuminant.quantities import QUANTITIES
-from illuminant.table import Crop, Fraction, Number, Positive, Range, Rgb, Size, Table, Vector, key
+from illuminant.spectrum_schema import SpectrumTable, SpectrumValue
+from illuminant.table import Crop, Fraction, Number, Positive, Range, Size, Table, Vector, key
+from illuminant.texture_schema import (
+    ColourValue,
+    HeightImage,
+    NormalImage,
+    SlopeValue,
+)
 
 __all__ = [
     "KINDS_OF_LIGHT",
@@ -64,74 +71,6 @@ def quantity(name: str, example: str) -> Any:
 
 
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
-
-
-class SpectrumTable(Table):
-    """A spectrum written in place.
-
-    Exactly one of `library`, `file`, `constant`, `blackbody_k`, `daylight_k`, `wavelengths_nm` (with `values`) and
-    `rgb` (with `role`) says where it comes from. Between its points it is linear.
-    """
-
-    library: str | None = key(
-        "name of a spectrum in the library of the package", '"ColorChecker/dark skin"', None
-    )
-    file: str | None = key(
-        "CSV or two-column file of wavelength in nm and value, beside the scene file",
-        '"spectra/paint.csv"',
-        None,
-    )
-    column: str | None = key("name of the column of `file`, where it has several", '"red"', None)
-    constant: float | None = key("the same value at every wavelength", "0.18", None)
-    blackbody_k: Positive | None = key(
-        "temperature of a black body (Planck), in K; absolute radiance, for use with `radiance_scale`, or relative "
-        "with any other quantity",
-        "2700.0",
-        None,
-    )
-    daylight_k: Annotated[float, Field(ge=4000, le=25000)] | None = key(
-        "correlated colour temperature of a CIE daylight, 4000 to 25,000 K; relative", "6504.0", None
-    )
-    wavelengths_nm: list[float] | None = key("wavelengths, increasing, in nm", "[400.0, 550.0, 700.0]", None)
-    values: list[float] | None = key("the value at each of `wavelengths_nm`", "[0.1, 0.4, 0.2]", None)
-    rgb: Rgb | None = key(
-        "three linear values (not gamma-encoded) of an RGB system, made a smooth spectrum by the sigmoid of Jakob "
-        "and Hanika (2019); refused for n, k and absorption",
-        "[0.6, 0.2, 0.1]",
-        None,
-    )
-    role: Literal["albedo", "emission"] | None = key(
-        "what `rgb` is: the albedo of a surface, or light under the white of its system", '"albedo"', None
-    )
-    system: str | None = key('RGB system of `rgb`; default "sRGB"', '"Rec.2020"', None)
-    scale: float | None = key("factor on all values; default 1", "0.01", None)
-    outside: Literal["zero", "hold", "error"] | None = key(
-        "the rule beyond the first and last point: zero, hold the end value, or an error when the scene's "
-        "wavelength range needs it; default what the data say of themselves, else zero for light and hold for others",
-        '"hold"',
-        None,
-    )
-
-
-def _spectrum_form(value: Any) -> str | None:
-    if isinstance(value, str):
-        return "<name>"
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
-        return "<constant>"
-    return "<table>" if isinstance(value, (dict, SpectrumTable)) else None
-
-
-SpectrumValue = Annotated[
-    Annotated[str, Tag("<name>")]
-    | Annotated[float, Tag("<constant>")]
-    | Annotated[SpectrumTable, Tag("<table>")],
-    Discriminator(
-        _spectrum_form,
-        custom_error_type="spectrum_form",
-        custom_error_message="must be a spectrum: a name, a number, or a table such as { blackbody_k = 2700.0 }",
-    ),
-]
-"""A name (of `[spectra]`, else of the library), a number (the same at every wavelength) or a `SpectrumTable`."""
 
 
 class Quantities(Table):
@@ -199,11 +138,19 @@ class Render(Table):
     filter: Filter | None = key("reconstruction filter", '{ kind = "gaussian", radius = 1.5 }', None)
 
 
+BUMP = key("image of heights that perturb the normal", '{ image = "images/dents.png", height = 0.001 }', None)
+NORMAL_MAP = key("image of normals that perturb the normal", '{ image = "images/normals.png" }', None)
+
+
 class Diffuse(Table):
     """A surface that scatters light equally in all directions (Lambert)."""
 
     kind: Literal["diffuse"] = key("the kind of material", '"diffuse"')
-    reflectance: SpectrumValue = key("fraction of light reflected, 0 to 1", '"ColorChecker/dark skin"')
+    reflectance: ColourValue = key(
+        "fraction of light reflected, 0 to 1, or an image of it", '"ColorChecker/dark skin"'
+    )
+    bump: HeightImage | None = BUMP
+    normal_map: NormalImage | None = NORMAL_MAP
 
 
 # The keys of a relief, which stand in every rough material.
@@ -235,14 +182,18 @@ class Conductor(Table):
     metal: str | None = key("name of a metal of the library, whose n and k are used", '"gold"', None)
     n: SpectrumValue | None = key("index of refraction", '"copper.n"', None)
     k: SpectrumValue | None = key("extinction coefficient", '"copper.k"', None)
-    roughness: Fraction = key(
-        "slope of the microfacets, Beckmann's m = 2σ/τ, or GGX's α; 0 is a mirror", "0.2", 0.0
+    roughness: SlopeValue = key(
+        "slope of the microfacets, Beckmann's m = 2σ/τ, or GGX's α, or an image of it; 0 is a mirror",
+        "0.2",
+        0.0,
     )
     roughness_across: Fraction | None = ROUGHNESS_ACROSS
     sigma_nm: Height | None = SIGMA_NM
     grain: Vector | None = GRAIN
     distribution: Literal["beckmann", "ggx"] = DISTRIBUTION
     finish: str | None = FINISH
+    bump: HeightImage | None = BUMP
+    normal_map: NormalImage | None = NORMAL_MAP
 
 
 class Dielectric(Table):
@@ -251,12 +202,14 @@ class Dielectric(Table):
     kind: Literal["dielectric"] = key("the kind of material", '"dielectric"')
     medium: str | None = key("name of a medium of the library, whose n is used", '"BK7"', None)
     n: SpectrumValue | None = key("index of refraction", "1.5", None)
-    roughness: Fraction = key("slope of the microfacets, as of a conductor; 0 is smooth", "0.1", 0.0)
+    roughness: SlopeValue = key("slope of the microfacets, as of a conductor; 0 is smooth", "0.1", 0.0)
     roughness_across: Fraction | None = ROUGHNESS_ACROSS
     sigma_nm: Height | None = SIGMA_NM
     grain: Vector | None = GRAIN
     distribution: Literal["beckmann", "ggx"] = DISTRIBUTION
     finish: str | None = FINISH
+    bump: HeightImage | None = BUMP
+    normal_map: NormalImage | None = NORMAL_MAP
     absorption: SpectrumValue | None = key(
         "absorption coefficient of the inside, in 1/m (always, whatever `length_unit` is); default none",
         "{ wavelengths_nm = [380.0, 780.0], values = [2.0, 0.5] }",
@@ -278,17 +231,22 @@ class Coated(Table):
     kind: Literal["coated"] = key("the kind of material", '"coated"')
     medium: str | None = key("name of a medium of the library, whose n the vehicle has", '"water"', None)
     n: SpectrumValue | None = key("index of refraction of the vehicle; default 1.5", "1.5", None)
-    roughness: Fraction = key("slope of the facets of its surface; 0 is gloss", "0.1", 0.0)
+    roughness: SlopeValue = key(
+        "slope of the facets of its surface, or an image of it; 0 is gloss", "0.1", 0.0
+    )
     roughness_across: Fraction | None = ROUGHNESS_ACROSS
     sigma_nm: Height | None = SIGMA_NM
     grain: Vector | None = GRAIN
     distribution: Literal["beckmann", "ggx"] = DISTRIBUTION
     finish: str | None = FINISH
-    pigment: SpectrumValue | None = key(
-        "reflectance of the pigment for diffuse light in the vehicle, 0 to 1", "0.8", None
+    bump: HeightImage | None = BUMP
+    normal_map: NormalImage | None = NORMAL_MAP
+    pigment: ColourValue | None = key(
+        "reflectance of the pigment for diffuse light in the vehicle, 0 to 1, or an image of it", "0.8", None
     )
-    reflectance: SpectrumValue | None = key(
-        "measured reflectance of the finished paint, surface included, 0 to 1, instead of `pigment` (Saunderson)",
+    reflectance: ColourValue | None = key(
+        "measured reflectance of the finished paint, surface included, 0 to 1, or an image of it, instead of "
+        "`pigment` (Saunderson)",
         '"ColorChecker/red"',
         None,
     )
@@ -318,7 +276,7 @@ class ThinFilter(Table):
     """
 
     kind: Literal["filter"] = key("the kind of material", '"filter"')
-    transmittance: SpectrumValue = key("fraction of light let through, 0 to 1", '"gels.csv"')
+    transmittance: ColourValue = key("fraction of light let through, 0 to 1, or an image of it", '"gels.csv"')
 
 
 class Emitter(Quantities):

@@ -2,7 +2,7 @@
 
 use crate::passes::Light;
 use crate::sequence::Sequence;
-use crate::skins::SkinLanes;
+use crate::skins::{Mixture, SkinLanes};
 use crate::wavelength::Wavelength;
 use glam::Vec3;
 use illuminant_illumination::{Illumination, IlluminationModel, Index, Prepare, REPRESENTATIVE_NM, Surface};
@@ -157,9 +157,9 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Pass<N, M> {
         sequence: &mut Sequence,
     ) -> Option<M> {
         let (lanes, skin) = (self.skins[material].as_ref()?, &scene.skins[material]);
-        let rung = lanes.mixture(skin, point).map(|mixture| {
-            let [u, ..] = sequence.next4();
-            mixture.lower + usize::from(u < mixture.part)
+        let rung = lanes.mixture(skin, point).map(|Mixture { lower, part }| {
+            let next = part > 0.0 && sequence.next4()[0] < part;
+            lower + usize::from(next)
         });
         let colour = lanes.colour(skin, point);
         Some(lanes.model(&self.materials[material], rung, colour.as_ref()))

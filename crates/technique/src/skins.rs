@@ -38,6 +38,8 @@ struct ColourLanes<const N: usize> {
     /// One unit of each channel, in lanes and the largest over the range.
     basis: [Lanes<N>; 3],
     largest: [f32; 3],
+    /// The largest of one unit of all channels together.
+    together: f32,
     /// For finished paint: what the boundary reflects, and of diffuse light from inside.
     boundary: Option<[f32; 2]>,
 }
@@ -48,6 +50,10 @@ impl<const N: usize> ColourLanes<N> {
         Self {
             basis: texture.basis.each_ref().map(lanes),
             largest: texture.basis.each_ref().map(|curve| curve.extent(range).1 as f32),
+            together: range
+                .wavelengths()
+                .map(|w| texture.basis.iter().map(|curve| curve.at(w)).sum::<f64>())
+                .fold(0.0, f64::max) as f32,
             boundary: texture
                 .finished
                 .map(|n| [dielectric(1.0, n), internal_reflectance(n)].map(|v| v as f32)),
@@ -58,7 +64,8 @@ impl<const N: usize> ColourLanes<N> {
     fn of(&self, texel: [f32; 3]) -> (Lanes<N>, f32) {
         let [r, g, b] = texel.map(|v| v.max(0.0));
         let sum = (self.basis[0] * r + self.basis[1] * g + self.basis[2] * b).map(|v| v.min(1.0));
-        let most = (self.largest[0] * r + self.largest[1] * g + self.largest[2] * b).min(1.0);
+        let most = self.largest[0] * r + self.largest[1] * g + self.largest[2] * b;
+        let most = most.min(self.together * r.max(g).max(b)).min(1.0);
         let Some([outer, inner]) = self.boundary else { return (sum, most) };
         // The inverse of Saunderson's formula.
         let pigment = |paint: f32| {
@@ -173,8 +180,12 @@ mod tests {
     #[test]
     fn finished_paint_is_seen_through_its_boundary() {
         let boundary = [dielectric(1.0, 1.5), internal_reflectance(1.5)].map(|v| v as f32);
-        let lanes =
-            ColourLanes::<4> { basis: [Lanes::splat(1.0); 3], largest: [1.0; 3], boundary: Some(boundary) };
+        let lanes = ColourLanes::<4> {
+            basis: [Lanes::splat(1.0); 3],
+            largest: [1.0; 3],
+            together: 3.0,
+            boundary: Some(boundary),
+        };
         for p in [0.0f64, 0.2, 0.7, 1.0] {
             let shown = paint(p, 1.5);
             let (found, most) = lanes.of([shown as f32, 0.0, 0.0]);

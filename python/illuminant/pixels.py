@@ -1,0 +1,79 @@
+"""Pixels of image files, as they are stored: for environments, and for what lies on surfaces.
+
+OpenImageIO reads the file (EXR, HDR, TIFF, PNG, JPEG and more). Whole numbers come as fractions of their largest
+value; nothing is decoded or clamped here.
+
+Example:
+    >>> from illuminant.pixels import read
+    >>> pixels, whole_numbers = read("scenes/images/studio.hdr")        # doctest: +SKIP
+    >>> pixels.shape, whole_numbers                                     # doctest: +SKIP
+    ((512, 1024, 3), False)
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from illuminant.errors import ImageError
+from illuminant.schema import MAX_PIXELS
+
+if TYPE_CHECKING:
+    import numpy as np
+
+__all__ = ["decode_srgb", "read"]
+
+
+def read(path: str | os.PathLike[str]) -> tuple[np.ndarray, bool]:
+    """The pixels of a file.
+
+    Returns:
+        float32 (h, w, 3), rows from the top, R, G, B, where a grey image has its value three times; and whether the
+        file holds whole numbers, which are usually encoded for a display.
+
+    Raises:
+        ImageError: the file is missing, damaged or too large; names the file.
+    """
+    import OpenImageIO as oiio
+
+    path = Path(path)
+    if not path.is_file():
+        raise ImageError(f"{path}: there is no such file")
+    source = oiio.ImageInput.open(str(path))
+    if source is None:
+        raise ImageError(f"{path}: cannot be read as an image ({_clause(oiio.geterror())})")
+    try:
+        spec = source.spec()
+        if spec.width * spec.height > MAX_PIXELS:
+            raise ImageError(
+                f"{path}: has {spec.width} × {spec.height} pixels; at most {MAX_PIXELS} can be used"
+            )
+        pixels = source.read_image(0, 0, 0, spec.nchannels, "float")
+        if pixels is None:
+            raise ImageError(f"{path}: is damaged ({_clause(source.geterror())})")
+        names = [name.upper() for name in spec.channelnames]
+        whole_numbers = spec.format.basetype not in (oiio.HALF, oiio.FLOAT, oiio.DOUBLE)
+    finally:
+        source.close()
+    if {"R", "G", "B"} <= set(names):
+        pixels = pixels[..., [names.index(name) for name in "RGB"]]
+    elif pixels.shape[-1] < 3:
+        pixels = pixels[..., [0, 0, 0]]
+    else:
+        pixels = pixels[..., :3]
+    return pixels, whole_numbers
+
+
+def decode_srgb(encoded: np.ndarray) -> np.ndarray:
+    """Linear values from sRGB's (IEC 61966-2-1), both from 0 to 1."""
+    import numpy as np
+
+    encoded = np.asarray(encoded, np.float64)
+    return np.where(
+        encoded <= 0.04045, encoded / 12.92, ((np.maximum(encoded, 0.04045) + 0.055) / 1.055) ** 2.4
+    )
+
+
+def _clause(text: str) -> str:
+    return " ".join(text.split()).rstrip(".") or "unknown reason"
