@@ -83,7 +83,7 @@ def test_an_image_of_one_roughness_is_that_roughness(technique, illumination):
 
 
 def test_roughness_between_two_rungs_is_a_mixture():
-    # A ramp from 0.1 to 0.5 along u; the middle of the square has about 0.3, and less light is lost than by a rung's step.
+    # A ramp along u; the middle of the square lies between two rungs.
     ramp = np.repeat(np.linspace(0, 1, 256, dtype=np.float32)[None, :, None], 2, axis=0).repeat(3, axis=2)
     metal = {"kind": "conductor", "metal": "gold"}
     narrow = {"field_of_view": 0.5, "size": [8, 8]}

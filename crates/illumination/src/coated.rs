@@ -282,6 +282,18 @@ impl<const N: usize> Coated<N> {
         }))
     }
 
+    /// Where between black pigment and white a pigment lies, by what leaves.
+    pub(crate) fn share_of_white(&self, at: &Incidence<'_, N>, pigment: &Lanes<N>) -> Lanes<N> {
+        let eta = self.layers.vehicle.mean / at.near.mean;
+        let tables = self.tables(at);
+        let [black, own, white] =
+            [Lanes::splat(0.0), *pigment, Lanes::splat(1.0)].map(|p| self.colour_of(tables, eta, &p));
+        Lanes(std::array::from_fn(|i| {
+            let whole = white.0[i] - black.0[i];
+            if whole > 0.0 { (own.0[i] - black.0[i]) / whole } else { 0.0 }
+        }))
+    }
+
     /// The largest C of a pigment, as one number.
     #[inline(always)]
     fn brightness_of(&self, tables: &Tables<N>, eta: f32, pigment: f32) -> f32 {

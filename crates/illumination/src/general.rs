@@ -268,6 +268,13 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
         }
     }
 
+    fn share_of_white(&self, at: &Incidence<'_, N>, colour: &Lanes<N>) -> Lanes<N> {
+        match self {
+            Self::Coated(coated) => coated.share_of_white(at, colour),
+            _ => *colour,
+        }
+    }
+
     fn claims(&self) -> Claims {
         Claims {
             reciprocal: true,

@@ -88,6 +88,12 @@ pub struct Historic<const N: usize> {
     coloured: Coloured<N>,
 }
 
+/// What of a pigment of reflectance `p` leaves a body, as a part of what leaves of a white one (Saunderson 1942).
+#[inline]
+fn leaves(p: f32, inner: f32) -> f32 {
+    p * (1.0 - inner) / (1.0 - inner * p)
+}
+
 /// By which rule a colour of an image becomes a coefficient: that of [`CoefficientCurves`], in lanes.
 #[derive(Clone, Copy, Debug)]
 enum Coloured<const N: usize> {
@@ -439,8 +445,8 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
             Coloured::Not => {}
             Coloured::Diffuser(scales) => scatters(scales, *colour, f64::from(brightness)),
             Coloured::Pigment { scales, inner, most, brightest } => {
-                let leaves = |p: f32| p * (1.0 - inner) / (1.0 - inner * p);
-                scatters(scales, most * colour.map(leaves), f64::from(brightest * leaves(brightness)));
+                let lanes = most * colour.map(|p| leaves(p, inner));
+                scatters(scales, lanes, f64::from(brightest * leaves(brightness, inner)));
             }
             Coloured::Filter(scale) => {
                 let through = Weighed { lanes: *colour, brightness: f64::from(brightness) };
@@ -448,6 +454,13 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
             }
         }
         found
+    }
+
+    fn share_of_white(&self, _at: &Incidence<'_, N>, colour: &Lanes<N>) -> Lanes<N> {
+        match self.coloured {
+            Coloured::Pigment { inner, .. } => colour.map(|p| leaves(p, inner)),
+            _ => *colour,
+        }
     }
 
     fn claims(&self) -> Claims {

@@ -133,6 +133,12 @@ pub trait IlluminationModel<const N: usize>: Send + Sync {
     where
         Self: Sized;
 
+    /// Where between the same surface in black and in white it lies with a colour: all that it does with light is linear in this.
+    #[must_use]
+    fn share_of_white(&self, _at: &Incidence<'_, N>, colour: &Lanes<N>) -> Lanes<N> {
+        *colour
+    }
+
     /// The laws it claims.
     fn claims(&self) -> Claims;
 }

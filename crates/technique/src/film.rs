@@ -17,11 +17,18 @@ pub const TOO_LARGE: f32 = 140_737_488_355_328.0;
 /// The number of fraction bits of a sum.
 const FRACTION: i32 = 48;
 
+/// Below this size a value's multiple of 2⁻⁴⁸ fits 64 bits.
+const SMALL: f32 = 32_768.0;
+
 /// A value of size below [`TOO_LARGE`] as a multiple of 2⁻⁴⁸, towards zero.
 #[inline(always)]
 #[must_use]
 pub fn fixed(value: f32) -> i128 {
     debug_assert!(value.abs() < TOO_LARGE);
+    // Nearly every value: its multiple fits 64 bits, and the product is exact.
+    if value.abs() < SMALL {
+        return i128::from((f64::from(value) * (1i64 << FRACTION) as f64) as i64);
+    }
     let bits = value.to_bits();
     let exponent = (bits >> 23 & 0xff) as i32;
     let mantissa = i128::from(bits & 0x7f_ffff | if exponent > 0 { 0x80_0000 } else { 0 });
@@ -67,7 +74,9 @@ impl TileFilm {
         self.samples[pixel] += 1;
         let sums = &mut self.sums[pixel * self.channels..][..self.channels];
         for (sum, &v) in sums.iter_mut().zip(values) {
-            *sum += fixed(v);
+            if v != 0.0 {
+                *sum += fixed(v);
+            }
         }
     }
 
@@ -125,15 +134,8 @@ impl Film {
         Self::with_tiles(crop, [settings.tile; 2], settings, lamps, spectral)
     }
 
-    /// The same with tiles of a width and a height.
-    #[must_use]
-    pub fn with_tiles(
-        crop: [u32; 4],
-        tile: [u32; 2],
-        settings: &Settings,
-        lamps: &[String],
-        spectral: usize,
-    ) -> Self {
+    /// The layers that settings ask for, and how many channels they have in all.
+    pub(crate) fn plan(settings: &Settings, lamps: &[String], spectral: usize) -> (Vec<LayerPlan>, usize) {
         let mut plan = Vec::new();
         let mut channels = 0;
         let mut push = |layer: Layer, name: String, count: usize| {
@@ -156,6 +158,19 @@ impl Film {
                 Layer::Terms => TERMS.iter().for_each(|name| push(Layer::Terms, (*name).into(), 3)),
             }
         }
+        (plan, channels)
+    }
+
+    /// The same with tiles of a width and a height.
+    #[must_use]
+    pub fn with_tiles(
+        crop: [u32; 4],
+        tile: [u32; 2],
+        settings: &Settings,
+        lamps: &[String],
+        spectral: usize,
+    ) -> Self {
+        let (plan, channels) = Self::plan(settings, lamps, spectral);
         let [width, height] = tile.map(|size| size.max(1));
         let [x0, y0, x1, y1] = crop;
         let mut tiles = Vec::new();
@@ -261,6 +276,15 @@ mod tests {
         fn fixed_point_is_the_value(v in -1e12f32..1e12) {
             let back = value(fixed(v));
             prop_assert!((back - f64::from(v)).abs() <= 4e-15 + 1e-15 * f64::from(v).abs());
+        }
+
+        #[test]
+        fn small_values_are_cut_off_as_large_ones_are(v in -65536f32..65536.0) {
+            // Exactly, whichever way it was found: what is lost lies below the last bit, towards zero.
+            let exact = f64::from(v) * (1u64 << FRACTION) as f64;
+            prop_assert_eq!(fixed(v), exact as i128);
+            let tiny = v * 2f32.powi(-40);
+            prop_assert_eq!(fixed(tiny), (f64::from(tiny) * (1u64 << FRACTION) as f64) as i128);
         }
 
         #[test]

@@ -38,6 +38,8 @@ pub(crate) struct Job {
 pub(crate) struct TileCounts {
     pub counts: Counts,
     pub samples: u64,
+    /// Runs of pixels that polygons cover in a row.
+    pub spans: u64,
     pub dropped: Vec<([u32; 2], u64)>,
 }
 

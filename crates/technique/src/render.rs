@@ -60,6 +60,8 @@ pub struct Statistics {
     pub closest: u64,
     /// Occlusion queries.
     pub occlusion: u64,
+    /// Spans of polygons in rows of samples, hidden ones included, of scanline techniques.
+    pub spans: u64,
     /// Samples left out because they were no radiance.
     pub dropped: u64,
     /// The first of them.
@@ -205,6 +207,7 @@ impl Render {
             self.statistics.samples += result.samples;
             self.statistics.closest += result.counts.closest;
             self.statistics.occlusion += result.counts.occlusion;
+            self.statistics.spans += result.spans;
             self.statistics.dropped += result.dropped.len() as u64;
             for (pixel, sample) in result.dropped {
                 if self.statistics.details.len() < DETAILS {

@@ -62,6 +62,11 @@ fn same<M: IlluminationModel<N> + Prepare>(illumination: Illumination, basis: &d
                 close(a.specular, b.specular, "specular");
                 assert!((own.pdf(&at, l) - taken.pdf(&at, l)).abs() < 1e-4, "{illumination} pdf");
             }
+            let [black, white] = [0.0, 1.0].map(|c| taken.coloured(&Lanes::splat(c), c));
+            let share = taken.share_of_white(&at, &lanes);
+            let l = Vec3::new(-0.6, 0.0, 0.8);
+            let ends = [black.eval(&at, l), white.eval(&at, l)];
+            close(own.eval(&at, l), ends[0] + share * (ends[1] + ends[0] * -1.0), "share");
             for i in 0..40 {
                 let u = [0.618, 0.755, 0.857].map(|step: f32| (step * i as f32).fract());
                 match (own.sample(&at, u, None), taken.sample(&at, u, None)) {

@@ -1,7 +1,22 @@
 //! Edge and span tables with incremental updates (book 4.2.4, figure 4.8).
 //!
 //! A polygon is entered at its first scanline. Along its left and right edges x and all values grow by a constant from one scanline to the
-//! next, along the span between them from one pixel to the next.
+//! next, along the span between them from one pixel to the next. Values travel in fours, one register each.
+
+use glam::Vec4;
+
+/// Four values that are interpolated together.
+pub type Quad = [f32; 4];
+
+/// The most corners that a polygon may have: a triangle cut by one plane.
+pub const MOST_CORNERS: usize = 4;
+
+/// a + b t.
+#[inline(always)]
+#[must_use]
+pub fn grown(a: Quad, b: Quad, t: f32) -> Quad {
+    (Vec4::from(a) + Vec4::from(b) * t).to_array()
+}
 
 /// A corner of a convex polygon: its place, and the values that are interpolated.
 #[derive(Clone, Copy, Debug)]
@@ -10,8 +25,8 @@ pub struct Corner<'a> {
     pub x: f64,
     /// Pixels from the top.
     pub y: f64,
-    /// The values.
-    pub values: &'a [f32],
+    /// The values, as many as the table has.
+    pub values: &'a [Quad],
 }
 
 /// The pixels of a polygon in one scanline.
@@ -23,8 +38,6 @@ pub struct Span {
     pub start: i32,
     /// One beyond the last.
     pub end: i32,
-    /// Where its values at the first pixel lie in [`EdgeTable::values`]; their growth from pixel to pixel follows them.
-    pub values: usize,
 }
 
 /// An edge that a scanline crosses.
@@ -35,63 +48,67 @@ struct Edge {
     /// The last scanline that it crosses.
     last: i32,
     /// The corner at which it ends.
-    to: usize,
+    to: u32,
 }
 
 /// A polygon that the scanline crosses.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 struct Active {
     polygon: u32,
     /// One beyond its last scanline.
     end: i32,
-    corners: Vec<(f64, f64)>,
-    /// The values of all corners, then those of both edges, then their growths.
-    values: Vec<f32>,
+    count: u32,
     edges: [Edge; 2],
+    corners: [[f64; 2]; MOST_CORNERS],
 }
 
 /// The polygons that a scanline crosses.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct EdgeTable {
+    /// How many fours of values each corner has.
+    quads: usize,
     active: Vec<Active>,
-    spare: Vec<Active>,
-    /// Values of the spans of the current scanline.
-    pub values: Vec<f32>,
-    /// The spans of the current scanline.
+    /// For each active polygon the values of both edges, their growths, and the values of its corners.
+    held: Vec<Quad>,
+    /// For each span its values at the first pixel, then their growths from pixel to pixel.
+    values: Vec<Quad>,
+    /// The spans of the current scanline, in no order.
     pub spans: Vec<Span>,
 }
 
+/// Where the growths of edges begin in what an active polygon holds, and where its corners, in units of a corner.
+const GROWTHS: usize = 2;
+const CORNERS: usize = 4;
+
 /// The first sample at or beyond a coordinate.
+#[inline(always)]
 fn sample(coordinate: f64) -> i32 {
     coordinate.ceil().clamp(-1e9, 1e9) as i32
 }
 
 impl Active {
-    /// The number of values.
-    fn width(&self) -> usize {
-        self.values.len() / (self.corners.len() + 4)
-    }
-
     /// Walks an edge from its corner on until one crosses the scanline.
-    fn advance(&mut self, side: usize, y: i32) {
-        let (count, width) = (self.corners.len(), self.width());
+    fn advance(&mut self, held: &mut [Quad], quads: usize, side: usize, y: i32) {
+        let count = self.count as usize;
         let step = if side == 0 { count - 1 } else { 1 };
+        let edge = &mut self.edges[side];
         for _ in 0..count {
-            let from = self.edges[side].to;
+            let from = edge.to as usize;
             let to = (from + step) % count;
-            let ((x0, y0), (x1, y1)) = (self.corners[from], self.corners[to]);
-            self.edges[side].to = to;
-            self.edges[side].last = sample(y1) - 1;
-            if y1 > y0 && self.edges[side].last >= y {
+            let ([x0, y0], [x1, y1]) = (self.corners[from], self.corners[to]);
+            edge.to = to as u32;
+            edge.last = sample(y1) - 1;
+            if y1 > y0 && edge.last >= y {
                 let inverse = 1.0 / (y1 - y0);
-                let (dx, t) = ((x1 - x0) * inverse, f64::from(y) - y0);
-                self.edges[side].x = x0 + dx * t;
-                self.edges[side].dx = dx;
-                for v in 0..width {
-                    let (a, b) = (self.values[from * width + v], self.values[to * width + v]);
-                    let growth = (b - a) * inverse as f32;
-                    self.values[(count + side) * width + v] = a + growth * t as f32;
-                    self.values[(count + 2 + side) * width + v] = growth;
+                let t = f64::from(y) - y0;
+                edge.dx = (x1 - x0) * inverse;
+                edge.x = x0 + edge.dx * t;
+                for v in 0..quads {
+                    let a = held[(CORNERS + from) * quads + v];
+                    let b = held[(CORNERS + to) * quads + v];
+                    let growth = ((Vec4::from(b) - Vec4::from(a)) * inverse as f32).to_array();
+                    held[side * quads + v] = grown(a, growth, t as f32);
+                    held[(GROWTHS + side) * quads + v] = growth;
                 }
                 return;
             }
@@ -100,7 +117,18 @@ impl Active {
 }
 
 impl EdgeTable {
-    /// Enters a convex polygon of which `y` is the first scanline to be drawn.
+    /// An empty table for corners with so many fours of values.
+    #[must_use]
+    pub fn new(quads: usize) -> Self {
+        Self { quads, active: Vec::new(), held: Vec::new(), values: Vec::new(), spans: Vec::new() }
+    }
+
+    /// How much a polygon holds, in fours of values.
+    fn block(quads: usize) -> usize {
+        (CORNERS + MOST_CORNERS) * quads
+    }
+
+    /// Enters a convex polygon of at most [`MOST_CORNERS`] of which `y` is the first scanline to be drawn.
     pub fn enter<'a>(
         &mut self,
         polygon: u32,
@@ -108,36 +136,38 @@ impl EdgeTable {
         corners: impl Iterator<Item = Corner<'a>>,
         offset: [f64; 2],
     ) {
-        let mut active = self.spare.pop().unwrap_or_else(|| Active {
+        let quads = self.quads;
+        let first = self.held.len();
+        let mut active = Active {
             polygon,
             end: 0,
-            corners: Vec::new(),
-            values: Vec::new(),
+            count: 0,
             edges: [Edge::default(); 2],
-        });
-        active.polygon = polygon;
-        active.corners.clear();
-        active.values.clear();
-        let mut width = 0;
-        for corner in corners {
-            active.corners.push((corner.x - offset[0], corner.y - offset[1]));
-            active.values.extend_from_slice(corner.values);
-            width = corner.values.len();
+            corners: [[0.0; 2]; MOST_CORNERS],
+        };
+        let (mut top, mut lowest) = (0, f64::MIN);
+        self.held.resize(first + Self::block(quads), [0.0; 4]);
+        let held = &mut self.held[first..];
+        for (i, corner) in corners.enumerate() {
+            let place = [corner.x - offset[0], corner.y - offset[1]];
+            active.corners[i] = place;
+            active.count += 1;
+            held[(CORNERS + i) * quads..][..quads].copy_from_slice(corner.values);
+            lowest = lowest.max(place[1]);
+            if place[1] < active.corners[top][1] {
+                top = i;
+            }
         }
-        let count = active.corners.len();
-        active.values.resize((count + 4) * width, 0.0);
-        let row = |i: &usize| active.corners[*i].1;
-        let Some(top) = (0..count).min_by(|a, b| row(a).total_cmp(&row(b))) else { return };
-        active.end = sample((0..count).map(|i| row(&i)).fold(f64::MIN, f64::max));
-        active.edges = [Edge { to: top, last: i32::MIN, ..Edge::default() }; 2];
+        active.end = sample(lowest);
+        if y >= active.end {
+            self.held.truncate(first);
+            return;
+        }
+        active.edges = [Edge { to: top as u32, last: i32::MIN, ..Edge::default() }; 2];
         for side in 0..2 {
-            active.advance(side, y);
+            active.advance(held, quads, side, y);
         }
-        if y < active.end {
-            self.active.push(active);
-        } else {
-            self.spare.push(active);
-        }
+        self.active.push(active);
     }
 
     /// The first scanline of a polygon whose highest corner has this y, with the offset of samples.
@@ -148,56 +178,74 @@ impl EdgeTable {
 
     /// Finds the spans of scanline `y` between two columns, and moves all edges on to the next one.
     pub fn scan(&mut self, y: i32, columns: [i32; 2]) {
+        // The usual widths by themselves, so that their loops are unrolled.
+        match self.quads {
+            1 => self.scan_wide(y, columns, 1),
+            2 => self.scan_wide(y, columns, 2),
+            quads => self.scan_wide(y, columns, quads),
+        }
+    }
+
+    #[inline(always)]
+    fn scan_wide(&mut self, y: i32, columns: [i32; 2], quads: usize) {
         self.values.clear();
         self.spans.clear();
+        let block = Self::block(quads);
         let mut i = 0;
         while i < self.active.len() {
             let active = &mut self.active[i];
-            let width = active.width();
-            let count = active.corners.len();
+            let held = &mut self.held[i * block..][..block];
             for side in 0..2 {
                 if active.edges[side].last < y {
-                    active.advance(side, y);
+                    active.advance(held, quads, side, y);
                 }
             }
             let swapped = usize::from(active.edges[0].x > active.edges[1].x);
-            let [left, right] = [active.edges[swapped], active.edges[1 - swapped]];
-            let (start, end) = (sample(left.x).max(columns[0]), sample(right.x).min(columns[1]));
+            let (left, right) = (active.edges[swapped].x, active.edges[1 - swapped].x);
+            let (start, end) = (sample(left).max(columns[0]), sample(right).min(columns[1]));
             if start < end {
-                let inverse = (1.0 / (right.x - left.x)) as f32;
-                let skipped = (f64::from(start) - left.x) as f32;
+                let inverse = ((right - left) as f32).recip();
+                let skipped = (f64::from(start) - left) as f32;
                 let first = self.values.len();
-                self.values.resize(first + 2 * width, 0.0);
-                let (values, growths) = self.values[first..].split_at_mut(width);
-                let (l, r) = ((count + swapped) * width, (count + 1 - swapped) * width);
-                for v in 0..width {
-                    let (a, b) = (active.values[l + v], active.values[r + v]);
-                    growths[v] = (b - a) * inverse;
-                    values[v] = a + growths[v] * skipped;
+                self.values.resize(first + 2 * quads, [0.0; 4]);
+                let (values, growths) = self.values[first..].split_at_mut(quads);
+                for v in 0..quads {
+                    let a = held[swapped * quads + v];
+                    let b = held[(1 - swapped) * quads + v];
+                    growths[v] = ((Vec4::from(b) - Vec4::from(a)) * inverse).to_array();
+                    values[v] = grown(a, growths[v], skipped);
                 }
-                self.spans.push(Span { polygon: active.polygon, start, end, values: first });
+                self.spans.push(Span { polygon: active.polygon, start, end });
+            }
+            if y + 1 >= active.end {
+                self.active.swap_remove(i);
+                let last = self.active.len() * block;
+                self.held.copy_within(last..last + block, i * block);
+                self.held.truncate(last);
+                continue;
             }
             for side in 0..2 {
                 active.edges[side].x += active.edges[side].dx;
-                let (value, growth) = ((count + side) * width, (count + 2 + side) * width);
-                for v in 0..width {
-                    active.values[value + v] += active.values[growth + v];
-                }
             }
-            if y + 1 >= active.end {
-                let done = self.active.swap_remove(i);
-                self.spare.push(done);
-            } else {
-                i += 1;
+            let (values, growths) = held[..CORNERS * quads].split_at_mut(GROWTHS * quads);
+            for (value, growth) in values.iter_mut().zip(growths) {
+                *value = grown(*value, *growth, 1.0);
             }
+            i += 1;
         }
-        // The order in which polygons end must not decide between two at one depth.
-        self.spans.sort_unstable_by_key(|span| span.polygon);
+    }
+
+    /// The values of a span, by its number, at its first pixel, and their growths from pixel to pixel.
+    #[inline(always)]
+    #[must_use]
+    pub fn of_span(&self, number: usize) -> (&[Quad], &[Quad]) {
+        self.values[2 * self.quads * number..][..2 * self.quads].split_at(self.quads)
     }
 
     /// Forgets all polygons.
     pub fn clear(&mut self) {
-        self.spare.append(&mut self.active);
+        self.active.clear();
+        self.held.clear();
     }
 }
 
@@ -207,22 +255,25 @@ mod tests {
 
     /// The values at every pixel of a polygon.
     fn fill(corners: &[([f64; 2], f32)], size: i32) -> Vec<Option<f32>> {
-        let mut table = EdgeTable::default();
+        let mut table = EdgeTable::new(1);
         let mut image = vec![None; (size * size) as usize];
         let top = corners.iter().map(|c| c.0[1]).fold(f64::MAX, f64::min);
         let first = EdgeTable::first_row(top, 0.5).max(0);
         for y in 0..size {
             if y == first {
-                let corners =
-                    corners.iter().map(|(p, v)| Corner { x: p[0], y: p[1], values: std::slice::from_ref(v) });
-                table.enter(0, y, corners, [0.5, 0.5]);
+                let quads: Vec<Quad> = corners.iter().map(|(_, v)| [*v; 4]).collect();
+                let places = corners.iter().zip(&quads);
+                let places =
+                    places.map(|((p, _), v)| Corner { x: p[0], y: p[1], values: std::slice::from_ref(v) });
+                table.enter(0, y, places, [0.5, 0.5]);
             }
             table.scan(y, [0, size]);
-            for span in &table.spans {
-                let (mut value, growth) = (table.values[span.values], table.values[span.values + 1]);
+            for (number, span) in table.spans.iter().enumerate() {
+                let (start, growth) = table.of_span(number);
                 for x in span.start..span.end {
+                    let [value, _, _, same] = grown(start[0], growth[0], (x - span.start) as f32);
+                    assert_eq!(value, same);
                     assert!(image[(y * size + x) as usize].replace(value).is_none());
-                    value += growth;
                 }
             }
         }

@@ -55,6 +55,8 @@ pub(crate) struct Place {
     pub geometric: Vec3,
     /// Where images are looked up, if they say something of the material.
     pub texture: Option<TexturePoint>,
+    /// A colour, the same at all wavelengths, in place of what an image says.
+    pub colour: Option<f32>,
 }
 
 /// The light of a scene in the lanes of one pass.
@@ -122,7 +124,10 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
         let place = Place { normal, ..*place };
         let Some(lanes) = &self.pass.skins[material] else { return self.shade_with(base, &place, parts) };
         let skin = &self.scene.skins[material];
-        let colour = lanes.colour(skin, point);
+        let colour = match place.colour {
+            Some(value) => Some((Lanes::splat(value), value)),
+            None => lanes.colour(skin, point),
+        };
         let mixture = lanes.mixture(skin, point);
         let of_rung = |rung: Option<usize>, parts: &mut Vec<Lanes<N>>| {
             self.shade_with(&lanes.model(base, rung, colour.as_ref()), &place, parts)
@@ -134,6 +139,19 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
         let mix = |a: Lanes<N>, b: Lanes<N>| a * (1.0 - part) + b * part;
         parts.iter_mut().zip(upper).for_each(|(part, upper)| *part = mix(*part, upper));
         mix(through, through_upper)
+    }
+
+    /// Where between black and white a surface lies by what an image says of its colour: all that it does with light is linear in
+    /// this.
+    pub fn share_of_white(&self, place: &Place) -> Lanes<N> {
+        let material = self.scene.objects[place.object].material;
+        let (lanes, skin) = (&self.pass.skins[material], &self.scene.skins[material]);
+        let colour =
+            lanes.as_ref().zip(place.texture.as_ref()).and_then(|(lanes, at)| lanes.colour(skin, at));
+        let air = self.pass.index(None);
+        let at = Incidence { to_viewer: Vec3::Z, near: air, far: air, hero_lane: None };
+        let model = &self.pass.materials[material];
+        colour.map_or_else(|| Lanes::splat(1.0), |(colour, _)| model.share_of_white(&at, &colour))
     }
 
     /// The same with a model given.
