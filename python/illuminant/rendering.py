@@ -428,6 +428,7 @@ def render(
     error: str | float | None = None,
     ambient: float | None = None,
     interpolation: str | None = None,
+    shading: str | None = None,
     shadows: bool | None = None,
     progress: OnProgress | None = None,
     on_partial: Callable[[Image], object] | None = None,
@@ -457,6 +458,7 @@ def render(
         error: end at this relative standard error: a fraction, or `"1%"`.
         ambient: ambient light of scanline techniques; default 0.15 of what lamps make of a white diffuser.
         interpolation: where scanline techniques interpolate; default `object`, or `screen`.
+        shading: how `phong` finds the illumination at a pixel; default `full`, or `duff` or `bishop-weimer`.
         shadows: whether scanline techniques find shadows; default False.
         progress: called about ten times a second with a `Progress`; returning False ends the render with what
             is done.
@@ -494,6 +496,7 @@ def render(
         error=error,
         ambient=ambient,
         interpolation=interpolation,
+        shading=shading,
         shadows=shadows,
     )
     _log_warnings(job)

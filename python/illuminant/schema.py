@@ -194,6 +194,12 @@ class Render(Table):
     interpolation: Literal["object", "screen"] | None = key(
         "where scanline techniques interpolate", '"object"', None
     )
+    shading: Literal["full", "duff", "bishop-weimer"] | None = key(
+        "how `phong` finds the illumination at a pixel: by the model, or in a fast form with eye and lamps of each "
+        "polygon at infinity",
+        '"full"',
+        None,
+    )
     shadows: bool | None = key("whether scanline techniques find shadows", "true", None)
     exposure: Positive | None = key("factor from luminance in cd/m² to the display's 0 to 1", "0.01", None)
     filter: Filter | None = key("reconstruction filter", '{ kind = "gaussian", radius = 1.5 }', None)

@@ -31,6 +31,7 @@ SCANLINE = ("constant", "gouraud", "phong")
 """The techniques that scan polygons."""
 
 INTERPOLATIONS = ("object", "screen")
+SHADINGS = ("full", "duff", "bishop-weimer")
 
 FILTERS = ("gaussian", "box", "tent")
 
@@ -61,6 +62,7 @@ class Settings:
         ambient: ambient light of the scanline techniques, as a fraction of what the lamps would make of a white
             diffuser in the middle of the scene.
         interpolation: where they interpolate: `object` or `screen`.
+        shading: how `phong` finds the illumination at a pixel: `full`, `duff` or `bishop-weimer`.
         shadows: whether they look for what stands between a surface and a lamp.
     """
 
@@ -80,6 +82,7 @@ class Settings:
     error: float | None = None
     ambient: float = 0.15
     interpolation: str = "object"
+    shading: str = "full"
     shadows: bool = False
 
     @property
@@ -106,6 +109,7 @@ class Settings:
                 "replicates": self.replicates,
                 "ambient": self.ambient,
                 "interpolation": self.interpolation,
+                "shading": self.shading,
                 "shadows": self.shadows,
             }
         )
@@ -126,7 +130,8 @@ class Settings:
         }
 
     def _scanline(self) -> dict[str, Any]:
-        return {"ambient": self.ambient, "interpolation": self.interpolation, "shadows": self.shadows}
+        given = {"ambient": self.ambient, "interpolation": self.interpolation, "shadows": self.shadows}
+        return given | ({"shading": self.shading} if self.technique == "phong" else {})
 
 
 def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings:
@@ -158,6 +163,8 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         chosen["error"] = fraction(chosen["error"])
     if chosen.get("interpolation", "object") not in INTERPOLATIONS:
         raise UsageError(f"--interpolation {chosen['interpolation']}: expected object or screen.")
+    if chosen.get("shading", "full") not in SHADINGS:
+        raise UsageError(f"--shading {chosen['shading']}: expected full, duff or bishop-weimer.")
     if "ambient" in chosen and not (
         isinstance(chosen["ambient"], (int, float)) and 0 <= chosen["ambient"] <= 10
     ):

@@ -107,6 +107,44 @@ def test_what_has_no_meaning_is_refused(scene):
         illuminant.render(scene, technique="gouraud", illumination="phong", samples=1, lamps=True)
 
 
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        ({"technique": "gouraud"}, "shading duff goes with phong alone"),
+        ({"technique": "path", "illumination": "general"}, "shading duff goes with phong alone"),
+        ({"illumination": "general"}, "its highlight is no power of a cosine"),
+        ({"illumination": "blinn"}, "its highlight is no power of a cosine"),
+        ({"illumination": "cook-torrance"}, "its highlight is no power of a cosine"),
+        ({"illumination": "hall"}, "mirror direction at every pixel"),
+        ({"illumination": "whitted"}, "mirror direction at every pixel"),
+        ({"shadows": True}, "finds no shadows"),
+        ({}, 'one sees through "glass"'),
+        ({"shading": "fast"}, "expected full, duff or bishop-weimer"),
+    ],
+)
+def test_a_fast_form_is_refused_where_it_has_no_meaning(scene, options, reason):
+    options = {"technique": "phong", "illumination": "phong", "shading": "duff"} | options
+    with pytest.raises(illuminant.UsageError, match=reason):
+        illuminant.render(scene, samples=1, **options)
+
+
+@pytest.mark.parametrize("model", ["bouknight", "phong"])
+@pytest.mark.parametrize("shading", ["duff", "bishop-weimer"])
+def test_fast_forms_are_near_the_full_one_where_polygons_are_small(tmp_path, model, shading):
+    """Facets of a sphere are small: an eye and lamps at infinity, and linear normals, cost little there."""
+    path = tmp_path / "scene.toml"
+    path.write_text(re.sub(r'^"(left|front)".*$', "", SCENE, flags=re.MULTILINE), encoding="utf-8")
+    options = {"technique": "phong", "illumination": model, "samples": 4, "layers": "terms"}
+    full = illuminant.render(path, **options)
+    fast = illuminant.render(path, shading=shading, **options)
+    lit = full.xyz[..., 1].max()
+    assert np.abs(fast.xyz - full.xyz).mean() < 0.002 * lit
+    assert not np.array_equal(fast.xyz, full.xyz)
+    for name in ("ambient", "diffuse", "specular"):
+        apart = np.abs(fast.layers[name] - full.layers[name])
+        assert apart.mean() < 0.002 * lit, name
+
+
 def test_a_scanline_has_no_path_to_follow(scene):
     with pytest.raises(illuminant.UsageError, match="follows no paths"):
         replay(scene, (3, 3), 0, technique="gouraud", illumination="phong")

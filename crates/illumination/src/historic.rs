@@ -1,7 +1,9 @@
 //! The historical models in the place of any other: what techniques ask of them.
 
 use crate::historical::{Asked, AskedPair, Coefficients, Historical, Side, Terms};
-use crate::model::{Claims, Components, DiscreteLobe, IlluminationModel, Incidence, Prepare, Scattered};
+use crate::model::{
+    Claims, Components, CosineModel, DiscreteLobe, IlluminationModel, Incidence, LobeAxis, Prepare, Scattered,
+};
 use crate::{
     Blinn, Bouknight, CoefficientCurves, CookTorrance, Hall, Illumination, Material, Phong, Samples, Surface,
     Weighed, Whitted,
@@ -370,6 +372,28 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
 
     fn ambient(&self, _at: &Incidence<'_, N>) -> Lanes<N> {
         self.surface.ambient.lanes
+    }
+
+    fn cosines(&self) -> Option<CosineModel<N>> {
+        let surface = &self.surface;
+        let scale = match self.model {
+            Illumination::Bouknight => 0.0,
+            Illumination::Phong => surface.specular_scale,
+            _ => return None,
+        };
+        let axis = match surface.highlight.distribution {
+            Distribution::Phong => LobeAxis::Mirror,
+            Distribution::Blinn => LobeAxis::Half,
+            _ if scale == 0.0 => LobeAxis::Half,
+            _ => return None,
+        };
+        (surface.terminator == 1.0 && !surface.transparent).then(|| CosineModel {
+            ambient: surface.ambient.lanes,
+            diffuse: surface.diffuse.lanes,
+            specular: Samples::times(surface.specular.lanes, scale),
+            exponent: surface.highlight.coefficient as f32,
+            axis,
+        })
     }
 
     fn claims(&self) -> Claims {

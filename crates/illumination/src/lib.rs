@@ -45,7 +45,8 @@ pub use historic::Historic;
 pub use historical::{Asked, AskedPair, Coefficients, Historical, Side, Terms};
 pub use material::{Film, Flakes, Material, REPRESENTATIVE_NM, Surface};
 pub use model::{
-    Claims, Components, DiscreteLobe, Hero, IlluminationModel, Incidence, Index, Prepare, Scattered,
+    Claims, Components, CosineModel, DiscreteLobe, Hero, IlluminationModel, Incidence, Index, LobeAxis,
+    Prepare, Scattered,
 };
 pub use phong::Phong;
 pub use samples::{Samples, Weighed};

@@ -88,6 +88,31 @@ pub struct Components<const N: usize> {
     pub specular: Lanes<N>,
 }
 
+/// About which direction the highlight of a [`CosineModel`] lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LobeAxis {
+    /// R·L, of the mirror direction of the view.
+    Mirror,
+    /// N·H.
+    Half,
+}
+
+/// A model that is K_a I_a + K_d (N·L) I + K_s cosⁿ I and nothing else, I being irradiance over π: two cosines, which incremental
+/// techniques can follow without the model.
+#[derive(Clone, Copy, Debug)]
+pub struct CosineModel<const N: usize> {
+    /// K_a.
+    pub ambient: Lanes<N>,
+    /// K_d.
+    pub diffuse: Lanes<N>,
+    /// K_s; 0 where there is no highlight.
+    pub specular: Lanes<N>,
+    /// n.
+    pub exponent: f32,
+    /// Which cosine.
+    pub axis: LobeAxis,
+}
+
 /// What a technique asks of a surface. All vectors are local, unit, and point away from the surface.
 ///
 /// Decisions may look at brightness, never at lanes, so that every spectral sampling follows the same paths.
@@ -124,6 +149,11 @@ pub trait IlluminationModel<const N: usize>: Send + Sync {
     fn see_through(&self, at: &Incidence<'_, N>) -> Lanes<N> {
         let through = self.discrete_lobes(at).into_iter().filter(|lobe| lobe.transmitted);
         through.fold(Lanes::default(), |sum, lobe| sum + lobe.weight)
+    }
+
+    /// The model as two cosines, if it is no more.
+    fn cosines(&self) -> Option<CosineModel<N>> {
+        None
     }
 
     /// The laws it claims.

@@ -23,4 +23,4 @@ pub use render::{Dropped, Progress, Render, RenderError, Statistics};
 pub use scanline::edges;
 pub use scene_products::{products, spectral_error};
 pub use sequence::Sequence;
-pub use settings::{Interpolation, Layer, Settings, Technique};
+pub use settings::{Interpolation, Layer, Settings, Shading, Technique};

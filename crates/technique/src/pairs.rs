@@ -1,7 +1,9 @@
 //! Which technique goes with which illumination model (book table 4.1, section 4.7).
 
-use crate::settings::{Settings, Technique};
-use illuminant_illumination::Illumination;
+use crate::settings::{Settings, Shading, Technique};
+use illuminant_illumination::{CoefficientCurves, Illumination, Surface};
+use illuminant_optics::distribution::Distribution;
+use illuminant_scene::Scene;
 
 /// What is to be said of a pair.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,6 +64,62 @@ pub fn check(technique: Technique, illumination: Illumination) -> Result<(), Str
         Pair::Refused(reason) => Err(format!("{technique} does not go with {illumination}: {reason}")),
         _ => Ok(()),
     }
+}
+
+/// Refuses a fast form of Phong's shading where it has no meaning.
+///
+/// # Errors
+/// The reason.
+pub fn check_shading(
+    scene: &Scene,
+    settings: &Settings,
+    technique: Technique,
+    illumination: Illumination,
+) -> Result<(), String> {
+    let shading = settings.shading;
+    if shading == Shading::Full {
+        return Ok(());
+    }
+    if technique != Technique::Phong {
+        return Err(format!(
+            "shading {shading} goes with phong alone, which finds the illumination at every pixel; {technique} does not"
+        ));
+    }
+    match illumination {
+        Illumination::Bouknight | Illumination::Phong => {}
+        Illumination::Whitted | Illumination::Hall => {
+            return Err(format!(
+                "shading {shading} does not go with {illumination}: it asks for the mirror direction at every pixel"
+            ));
+        }
+        _ => {
+            return Err(format!(
+                "shading {shading} does not go with {illumination}: its highlight is no power of a cosine; use \
+                 bouknight or phong"
+            ));
+        }
+    }
+    if settings.shadows {
+        return Err(format!("shading {shading} finds no shadows: it looks at lamps once a polygon"));
+    }
+    for object in &scene.objects {
+        let material = &scene.materials[object.material];
+        if matches!(material.surface, Surface::Filter { .. } | Surface::Dielectric { .. }) {
+            return Err(format!(
+                "shading {shading} needs opaque materials, and one sees through {:?}",
+                material.name
+            ));
+        }
+        let curves = CoefficientCurves::new(material, illumination, scene.range);
+        let power = matches!(curves.highlight.distribution, Distribution::Phong | Distribution::Blinn);
+        if curves.terminator != 1.0 || (illumination == Illumination::Phong && !power) {
+            return Err(format!(
+                "shading {shading} needs N·L and the power of a cosine, and material {:?} overrides them",
+                material.name
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// What a user should know of the pair that settings name.

@@ -114,6 +114,7 @@ impl Render {
         let technique: Technique = settings.technique.parse().map_err(RenderError::Setting)?;
         let illumination: Illumination = settings.illumination.parse().map_err(RenderError::Setting)?;
         pairs::check(technique, illumination).map_err(RenderError::Setting)?;
+        pairs::check_shading(&scene, &settings, technique, illumination).map_err(RenderError::Setting)?;
         if technique.is_scanline() && settings.layers.contains(&Layer::Lamps) {
             return Err(RenderError::Setting(format!("{technique} does not keep lamps apart; path does")));
         }

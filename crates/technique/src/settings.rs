@@ -63,6 +63,29 @@ pub enum Interpolation {
     Screen,
 }
 
+/// How `phong` finds the illumination at a pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shading {
+    /// By the model itself.
+    #[default]
+    Full,
+    /// By forward differences of numerator and denominator (Duff 1979), eye and lamps of each polygon at infinity.
+    Duff,
+    /// By a Taylor polynomial of second degree over each polygon (Bishop and Weimer 1986).
+    BishopWeimer,
+}
+
+impl fmt::Display for Shading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Full => "full",
+            Self::Duff => "duff",
+            Self::BishopWeimer => "bishop-weimer",
+        })
+    }
+}
+
 /// A layer of the film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -116,6 +139,8 @@ pub struct Settings {
     pub ambient: f64,
     /// Where scanline techniques interpolate.
     pub interpolation: Interpolation,
+    /// How `phong` finds the illumination at a pixel.
+    pub shading: Shading,
     /// Whether scanline techniques look for what stands between a surface and a lamp.
     pub shadows: bool,
 }
@@ -135,6 +160,7 @@ impl Default for Settings {
             replicates: 1,
             ambient: 0.15,
             interpolation: Interpolation::default(),
+            shading: Shading::default(),
             shadows: false,
         }
     }

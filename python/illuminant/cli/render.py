@@ -81,6 +81,14 @@ def render(
             help="Where scanline techniques interpolate: object or screen (object).",
         ),
     ] = None,
+    shading: Annotated[
+        str | None,
+        typer.Option(
+            "--shading",
+            metavar="FORM",
+            help="How phong finds the illumination at a pixel: full, duff or bishop-weimer (full).",
+        ),
+    ] = None,
     shadows: Annotated[bool, typer.Option("--shadows", help="Let scanline techniques find shadows.")] = False,
     sampling: Annotated[
         str | None,
@@ -203,6 +211,7 @@ def render(
         "error": error,
         "ambient": ambient,
         "interpolation": interpolation,
+        "shading": shading,
         "shadows": shadows or None,
     }
     with _Stop() as stop:

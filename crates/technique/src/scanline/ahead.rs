@@ -124,7 +124,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
         }
         for (i, vertex) in self.projection.vertices.iter().enumerate() {
             let q = self.projection.screen[i].q as f32;
-            if self.technique == Technique::Constant {
+            if self.quads == 1 {
                 values.push([q, 0.0, 0.0, 0.0]);
             } else {
                 let [n, p] = [vertex.normal, vertex.position].map(|v| v * self.factor(i));

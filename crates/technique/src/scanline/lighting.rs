@@ -16,15 +16,16 @@ const ON_LAMP: [[f32; 2]; 4] = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75,
 
 /// Light that arrives from a direction.
 #[derive(Clone, Copy, Debug)]
-struct Arriving {
-    lamp: usize,
-    direction: Vec3,
+pub(super) struct Arriving {
+    pub lamp: usize,
+    pub direction: Vec3,
     /// Irradiance at normal incidence relative to the lamp's spectrum.
-    scale: f32,
+    pub scale: f32,
     target: Option<Vec3>,
 }
 
-fn arriving(scene: &Scene, point: Vec3, each: &mut impl FnMut(Arriving)) {
+/// Light that arrives at a point from lamps.
+pub(super) fn arriving(scene: &Scene, point: Vec3, each: &mut impl FnMut(Arriving)) {
     for (number, lamp) in scene.lamps.iter().enumerate() {
         let places = match &lamp.form {
             LampForm::Uniform | LampForm::Image(_) => continue,

@@ -2,11 +2,12 @@
 //!
 //! Triangles are transformed to the screen ([`projection`]); the model is evaluated ahead where the technique allows it ([`ahead`]); an
 //! edge table gives the spans of each scanline ([`edges`]); the nearest of them are found pixel by pixel, which leaves visible runs; and
-//! along each run colours or normals are updated by increments ([`row`]). Transparent surfaces lie before the nearest opaque one in the
+//! along each run colours or normals are updated by increments ([`row`], [`fast_phong`]). Transparent surfaces lie before the nearest opaque one in the
 //! order of their depth (Newell, Newell and Sancha 1972).
 
 mod ahead;
 pub mod edges;
+mod fast_phong;
 mod lighting;
 mod projection;
 mod row;
@@ -17,9 +18,10 @@ use crate::lanes::Pass;
 use crate::passes::{Job, TileCounts, TileRenderer, auxiliary_layers};
 use crate::path::Primary;
 use crate::sequence::Sequence;
-use crate::settings::{Interpolation, Layer, Settings, Technique};
+use crate::settings::{Interpolation, Layer, Settings, Shading, Technique};
 use ahead::{Channels, ShadedPass, channels_of_lanes};
 use edges::Quad;
+use fast_phong::FastPhong;
 use illuminant_illumination::IlluminationModel;
 use illuminant_scene::{Camera, Scene};
 use lighting::PARTS;
@@ -45,6 +47,8 @@ pub(crate) struct Scanline<const N: usize, M> {
     passes: Vec<ShadedPass<N, M>>,
     /// What was shaded ahead as channels of the film, where that gives the same.
     channels: Option<Channels>,
+    /// One of the fast forms of Phong's shading, if it is asked for ([`fast_phong`]).
+    fast: Option<FastPhong>,
     /// What corners give to spans where nothing was shaded at them.
     corners: Vec<Quad>,
     /// How many fours of values a corner gives to spans, and how many what was shaded ahead takes.
@@ -109,6 +113,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
         let quads = match technique {
             Technique::Constant => 1,
             Technique::Gouraud => stride,
+            Technique::Phong if settings.shading != Shading::Full => 1,
             _ => 2,
         };
         let emits = !scene.surroundings.is_empty() || scene.objects.iter().any(|o| o.lamp.is_some());
@@ -131,6 +136,7 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             projection,
             passes: Vec::new(),
             channels: None,
+            fast: None,
             corners: Vec::new(),
             quads,
             stride,
@@ -142,6 +148,9 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             .map(|pass| all.shade_ahead(scene, &plan, pass, ambient, channels.as_mut()))
             .collect();
         all.channels = channels;
+        if technique == Technique::Phong && settings.shading != Shading::Full {
+            all.fast = Some(FastPhong::new(&all, scene, &plan, channels_of_lanes(&plan), settings.shading));
+        }
         all.corners = all.corner_values();
         all
     }
@@ -172,16 +181,18 @@ impl<const N: usize, M: IlluminationModel<N>> TileRenderer for Scanline<N, M> {
             let at = Sampled { area: tile.area, offset: [job.filter.offset(u), job.filter.offset(v)] };
             channels.fill(0.0);
             // Channels hold all passes.
-            let at_once = if self.channels.is_some() { self.passes.len() } else { 1 };
+            let at_once = if self.channels.is_some() || self.fast.is_some() { self.passes.len() } else { 1 };
             for passes in self.passes.chunks(at_once.max(1)) {
                 let mut exposed = Exposed { channels: &mut channels, seen: &mut seen };
                 self.scan(job, passes, &at, &mut band, &mut exposed);
             }
+            // All at once, which takes no branch.
+            let sound = !self.sees && channels.iter().fold(true, |sound, v| sound & (v.abs() < TOO_LARGE));
             for (i, values) in channels.chunks_exact_mut(job.channels).enumerate() {
                 if self.sees || replicates > 1 {
                     auxiliary_layers(job, seen.get(i).unwrap_or(&nothing), sample, values);
                 }
-                if values.iter().all(|v| v.abs() < TOO_LARGE) {
+                if sound || values.iter().all(|v| v.abs() < TOO_LARGE) {
                     tile.add(i, values);
                 } else {
                     let x = tile.area[0] + i as u32 % tile.width();

@@ -209,6 +209,10 @@ impl<const N: usize, M: IlluminationModel<N>> Scanline<N, M> {
             let to = &mut channels[column * job.channels..][..length * job.channels];
             if owner != NOBODY && self.channels.is_some() {
                 self.expose_channels(job, at, &band.table, owner as usize, column, to);
+            } else if let (Some(fast), true) = (&self.fast, owner != NOBODY) {
+                let x = f64::from(at.area[0]) + column as f64 + 0.5 + f64::from(at.offset[0]);
+                let y = f64::from(y) + 0.5 + f64::from(at.offset[1]);
+                fast.expose(&band.table.spans[owner as usize], [x, y], job.channels, to);
             } else {
                 let background = owner == NOBODY && job.scene.surroundings.is_empty();
                 let veiled = band.veils.get(veil).is_some_and(|v| v.column < run.end);
