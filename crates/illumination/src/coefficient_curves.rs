@@ -188,8 +188,12 @@ impl CoefficientCurves {
         if matches!(model, Illumination::Phong | Illumination::Whitted) {
             found.specular = Curve::constant(mean(&found.specular, range));
         }
-        for over in material.overrides.iter().filter(|over| over.model.is_none_or(|m| m == model)) {
-            found.take(over, beta);
+        // What is said of all models comes first, so that what is said of this one wins.
+        let mut beta = beta;
+        for told in [None, Some(model)] {
+            for over in material.overrides.iter().filter(|over| over.model == told) {
+                beta = found.take(over, beta);
+            }
         }
         found
     }
@@ -274,7 +278,8 @@ impl CoefficientCurves {
         }
     }
 
-    fn take(&mut self, over: &Overrides, beta: f64) {
+    /// Takes what is overridden; the width of the highlight before and after.
+    fn take(&mut self, over: &Overrides, beta: f64) -> f64 {
         let set = |slot: &mut f64, value: Option<f64>| *slot = value.unwrap_or(*slot);
         set(&mut self.ambient_scale, over.ambient);
         set(&mut self.diffuse_scale, over.diffuse);
@@ -290,19 +295,21 @@ impl CoefficientCurves {
         put(&mut self.specular, &over.specular_curve);
         put(&mut self.transmitted, &over.transmitted_curve);
         self.transparent |= over.transmitted_curve.is_some();
-        let beta = over.beta.unwrap_or(beta);
+        let distribution = over.distribution.unwrap_or(self.highlight.distribution);
+        let mut beta = over.beta.unwrap_or(beta);
         if over.distribution.is_some() || over.beta.is_some() {
-            let distribution = over.distribution.unwrap_or(self.highlight.distribution);
             self.highlight = Highlight::new(distribution, beta, self.highlight.masking);
         }
         if let Some(coefficient) = over.coefficient {
             self.highlight.coefficient = coefficient;
+            beta = distribution.half_angle(coefficient);
         }
-        self.highlight.masking = match over.masking {
-            None => self.highlight.masking,
-            Some(Masking::Sancer(_)) => Masking::Sancer(Distribution::Cook.coefficient(beta)),
-            Some(masking) => masking,
+        // Facets of a Gaussian surface are hidden by the slope of the highlight.
+        self.highlight.masking = match over.masking.unwrap_or(self.highlight.masking) {
+            Masking::Sancer(_) => Masking::Sancer(Distribution::Cook.coefficient(beta)),
+            masking => masking,
         };
+        beta
     }
 
     /// The coefficients by what reduces a curve to samples.
@@ -338,5 +345,34 @@ mod tests {
         let [diffuse, specular] = metal_multipliers(100.0, false);
         assert!(diffuse > 0.35 && diffuse < 0.36 && specular > 0.65 && specular < 0.75);
         assert!((Distribution::Blinn.coefficient(SHARPEST_BETA) - 330.0).abs() < 0.5);
+    }
+
+    #[test]
+    fn what_is_said_of_a_model_wins_over_what_is_said_of_all() {
+        let surface = Surface::Diffuse { reflectance: Curve::constant(0.4) };
+        let own = Overrides {
+            model: Some(Illumination::Phong),
+            specular: Some(0.3),
+            distribution: Some(Distribution::Gaussian),
+            ..Overrides::default()
+        };
+        let all = Overrides {
+            specular: Some(0.7),
+            diffuse: Some(0.5),
+            coefficient: Some(80.0),
+            masking: Some(Masking::Sancer(0.0)),
+            ..Overrides::default()
+        };
+        // In any order.
+        let material = Material { overrides: vec![own, all], ..Material::new("m", surface) };
+        let of = |model| CoefficientCurves::new(&material, model, SpectralRange::default());
+        let [phong, whitted] = [Illumination::Phong, Illumination::Whitted].map(of);
+        assert_eq!((phong.specular_scale, phong.diffuse_scale), (0.3, 0.5));
+        assert_eq!((whitted.specular_scale, whitted.diffuse_scale), (0.7, 0.5));
+        assert_eq!(whitted.highlight.coefficient, 80.0);
+        // The width that the exponent gave stays when another distribution takes its place, and gives the slope of the masking.
+        let beta = Distribution::Phong.half_angle(80.0);
+        assert!((Distribution::Gaussian.half_angle(phong.highlight.coefficient) - beta).abs() < 1e-9);
+        assert_eq!(phong.highlight.masking, Masking::Sancer(Distribution::Cook.coefficient(beta)));
     }
 }

@@ -43,21 +43,91 @@ pub struct CurveData {
     pub outside: Outside,
 }
 
-/// A material; curves are indices.
+/// A material.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialData {
+    /// The name that messages use.
+    pub name: String,
+    /// What it is made of.
+    pub surface: SurfaceData,
+    /// What the historical models are told instead of what they would derive.
+    #[serde(default)]
+    pub coefficients: Vec<CoefficientsData>,
+}
+
+/// What one historical model, or all, take instead of the rule by which coefficients follow from a surface; what is absent follows
+/// the rule. Curves are indices.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CoefficientsData {
+    /// The name of the model; absent for all.
+    pub model: Option<String>,
+    /// C_Ka, 0 or above.
+    pub ambient: Option<f64>,
+    /// C_Kd, 0 or above.
+    pub diffuse: Option<f64>,
+    /// C_Ks, 0 or above.
+    pub specular: Option<f64>,
+    /// C_Kt, 0 or above.
+    pub transmitted: Option<f64>,
+    /// K_a and K_d, in [0, 1].
+    pub diffuse_curve: Option<usize>,
+    /// K_s, in [0, 1].
+    pub specular_curve: Option<usize>,
+    /// K_t, in [0, 1].
+    pub transmitted_curve: Option<usize>,
+    /// β between N and H where the highlight has half its strength, degrees, above 0 and below 90.
+    pub half_angle_deg: Option<f64>,
+    /// N_s, C₁, C₂² or m² of the distribution, above 0, instead of β.
+    pub exponent: Option<f64>,
+    /// How facets lie.
+    pub distribution: Option<LobeData>,
+    /// What hides them.
+    pub masking: Option<MaskingData>,
+    /// p of (N·L)^p, 1 to 5.
+    pub terminator: Option<f64>,
+}
+
+/// A distribution of facets of the literature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LobeData {
+    /// (R·L)^N_s.
+    Phong,
+    /// (N·H)^N_s.
+    Blinn,
+    /// Of C₁.
+    Gaussian,
+    /// Of C₂².
+    TrowbridgeReitz,
+    /// Beckmann's, of m².
+    Cook,
+}
+
+/// A masking of facets of the literature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MaskingData {
+    /// Nothing hides.
+    None,
+    /// V-grooves.
+    TorranceSparrow,
+    /// A Gaussian surface of the highlight's β.
+    Sancer,
+}
+
+/// The physics of a surface; curves are indices.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
-pub enum MaterialData {
+pub enum SurfaceData {
     /// An ideal diffuser.
     Diffuse {
-        /// The name that messages use.
-        name: String,
         /// Reflectance, in [0, 1].
         reflectance: usize,
     },
     /// A conductor.
     Conductor {
-        /// The name that messages use.
-        name: String,
         /// Real part of the index.
         n: usize,
         /// Imaginary part.
@@ -68,15 +138,11 @@ pub enum MaterialData {
     },
     /// A thin filter.
     Filter {
-        /// The name that messages use.
-        name: String,
         /// Fraction of light let through.
         transmittance: usize,
     },
     /// A dielectric body.
     Dielectric {
-        /// The name that messages use.
-        name: String,
         /// Index of refraction.
         n: usize,
         /// Its relief.
@@ -91,8 +157,6 @@ pub enum MaterialData {
     },
     /// A vehicle over a pigment or metal.
     Coated {
-        /// The name that messages use.
-        name: String,
         /// Index of refraction of the vehicle.
         n: usize,
         /// The relief of its outer surface.

@@ -1,6 +1,7 @@
 //! What is in front of the camera: shapes and where they stand, materials, lamps, the camera, and ray queries.
 
 mod camera;
+mod coefficients;
 pub mod description;
 pub mod embree;
 mod environment;

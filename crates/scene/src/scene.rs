@@ -1,7 +1,9 @@
 //! A scene ready for rendering.
 
+use crate::coefficients::overrides;
 use crate::description::{
-    CurveData, Description, DistributionData, FinishData, LightData, MaterialData, ShapeData, Sides, UpAxis,
+    CurveData, Description, DistributionData, FinishData, LightData, MaterialData, ShapeData, Sides,
+    SurfaceData, UpAxis,
 };
 use crate::environment::EnvironmentImage;
 use crate::lamp::{Lamp, LampForm, SurfaceLamp, spot_solid_angle};
@@ -29,7 +31,7 @@ pub struct SceneError {
     pub problem: String,
 }
 
-fn error(place: impl Into<String>, problem: impl Into<String>) -> SceneError {
+pub(crate) fn error(place: impl Into<String>, problem: impl Into<String>) -> SceneError {
     SceneError { place: place.into(), problem: problem.into() }
 }
 
@@ -168,38 +170,54 @@ fn get<'a>(curves: &'a [Curve], index: usize, place: &str) -> Result<&'a Curve, 
     curves.get(index).ok_or_else(|| error(place, format!("there is no curve {index}")))
 }
 
+/// A curve that does not fall below a bound.
+fn at_least(
+    curves: &[Curve],
+    place: &str,
+    what: &str,
+    index: usize,
+    least: f64,
+    range: SpectralRange,
+) -> Result<Curve, SceneError> {
+    let curve = get(curves, index, place)?;
+    if curve.extent(range).0 < least {
+        return Err(error(
+            place,
+            format!("{what} must not fall below {least} over {}–{} nm", range.min_nm, range.max_nm),
+        ));
+    }
+    Ok(curve.clone())
+}
+
+/// A curve from 0 to 1.
+pub(crate) fn fraction(
+    curves: &[Curve],
+    place: &str,
+    what: &str,
+    index: usize,
+    range: SpectralRange,
+) -> Result<Curve, SceneError> {
+    let curve = at_least(curves, place, what, index, 0.0, range)?;
+    let highest = curve.extent(range).1;
+    if highest > 1.0 {
+        let problem = format!(
+            "{what} must not exceed 1, and it reaches {highest:.4}; fractions are meant, not percent"
+        );
+        return Err(error(place, problem));
+    }
+    Ok(curve)
+}
+
 fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Result<Material, SceneError> {
-    let place = |name: &str| format!("materials.{name}");
-    let at_least = |name: &str, what: &str, index: usize, least: f64| {
-        let curve = get(curves, index, &place(name))?;
-        if curve.extent(range).0 < least {
-            return Err(error(
-                place(name),
-                format!("{what} must not fall below {least} over {}–{} nm", range.min_nm, range.max_nm),
-            ));
-        }
-        Ok(curve.clone())
-    };
-    let fraction = |name: &str, what: &str, index: usize| {
-        let curve = at_least(name, what, index, 0.0)?;
-        let highest = curve.extent(range).1;
-        if highest > 1.0 {
-            let problem = format!(
-                "{what} must not exceed 1, and it reaches {highest:.4}; fractions are meant, not percent"
-            );
-            return Err(error(place(name), problem));
-        }
-        Ok(curve)
-    };
-    let finish = |name: &str, finish: &FinishData| {
+    let place = format!("materials.{}", data.name);
+    let at_least = |what: &str, index: usize, least: f64| at_least(curves, &place, what, index, least, range);
+    let fraction = |what: &str, index: usize| fraction(curves, &place, what, index, range);
+    let finish = |finish: &FinishData| {
         if finish.slope.iter().any(|m| !(0.0..=1.0).contains(m)) {
-            return Err(error(
-                place(name),
-                format!("slopes must lie between 0 and 1, not {:?}", finish.slope),
-            ));
+            return Err(error(&place, format!("slopes must lie between 0 and 1, not {:?}", finish.slope)));
         }
         if finish.sigma_nm.is_some_and(|sigma| !(sigma >= 0.0 && sigma.is_finite())) {
-            return Err(error(place(name), "sigma_nm must not be negative"));
+            return Err(error(&place, "sigma_nm must not be negative"));
         }
         let shape = match finish.shape {
             ShapeData::Beckmann => Shape::Beckmann,
@@ -207,64 +225,66 @@ fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Resu
         };
         Ok(Finish { slope: finish.slope, sigma_nm: finish.sigma_nm, shape })
     };
-    let (name, surface) = match data {
-        MaterialData::Diffuse { name, reflectance } => {
-            (name, Surface::Diffuse { reflectance: fraction(name, "reflectance", *reflectance)? })
+    let surface = match &data.surface {
+        SurfaceData::Diffuse { reflectance } => {
+            Surface::Diffuse { reflectance: fraction("reflectance", *reflectance)? }
         }
-        MaterialData::Filter { name, transmittance } => {
-            (name, Surface::Filter { transmittance: fraction(name, "transmittance", *transmittance)? })
+        SurfaceData::Filter { transmittance } => {
+            Surface::Filter { transmittance: fraction("transmittance", *transmittance)? }
         }
-        MaterialData::Conductor { name, n, k, finish: relief } => {
-            let (n, k) = (at_least(name, "n", *n, 1e-4)?, at_least(name, "k", *k, 0.0)?);
-            (name, Surface::Conductor { n, k, finish: finish(name, relief)? })
+        SurfaceData::Conductor { n, k, finish: relief } => {
+            let (n, k) = (at_least("n", *n, 1e-4)?, at_least("k", *k, 0.0)?);
+            Surface::Conductor { n, k, finish: finish(relief)? }
         }
-        MaterialData::Dielectric { name, n, finish: relief, absorption, dispersion } => {
-            let surface = Surface::Dielectric {
-                n: at_least(name, "n", *n, 0.1)?,
-                finish: finish(name, relief)?,
-                absorption: absorption.map(|a| at_least(name, "absorption", a, 0.0)).transpose()?,
-                dispersion: *dispersion,
-            };
-            (name, surface)
-        }
-        MaterialData::Coated { name, n, finish: relief, film, pigment, flakes } => {
+        SurfaceData::Dielectric { n, finish: relief, absorption, dispersion } => Surface::Dielectric {
+            n: at_least("n", *n, 0.1)?,
+            finish: finish(relief)?,
+            absorption: absorption.map(|a| at_least("absorption", a, 0.0)).transpose()?,
+            dispersion: *dispersion,
+        },
+        SurfaceData::Coated { n, finish: relief, film, pigment, flakes } => {
             let film = film.map(|film| {
                 if !(film.thickness >= 0.0 && film.thickness.is_finite()) {
-                    return Err(error(place(name), "the thickness of a film must not be negative"));
+                    return Err(error(&place, "the thickness of a film must not be negative"));
                 }
-                let absorption = at_least(name, "absorption", film.absorption, 0.0)?;
+                let absorption = at_least("absorption", film.absorption, 0.0)?;
                 Ok(Film { absorption, thickness: film.thickness })
             });
             let flakes = flakes.map(|flakes| {
                 if !(0.0..=1.0).contains(&flakes.slope) || !(0.0..=1.0).contains(&flakes.coverage) {
                     let problem = "slope and coverage of flakes must lie between 0 and 1";
-                    return Err(error(place(name), problem));
+                    return Err(error(&place, problem));
                 }
                 Ok(Flakes {
-                    n: at_least(name, "n", flakes.n, 1e-4)?,
-                    k: at_least(name, "k", flakes.k, 0.0)?,
+                    n: at_least("n", flakes.n, 1e-4)?,
+                    k: at_least("k", flakes.k, 0.0)?,
                     slope: flakes.slope,
                     coverage: flakes.coverage,
                 })
             });
-            let surface = Surface::Coated {
-                n: at_least(name, "n", *n, 1.0)?,
-                finish: finish(name, relief)?,
+            Surface::Coated {
+                n: at_least("n", *n, 1.0)?,
+                finish: finish(relief)?,
                 film: film.transpose()?,
-                pigment: fraction(name, "pigment", *pigment)?,
+                pigment: fraction("pigment", *pigment)?,
                 flakes: flakes.transpose()?,
-            };
-            (name, surface)
+            }
         }
     };
-    let grain = match data {
-        MaterialData::Conductor { finish, .. }
-        | MaterialData::Dielectric { finish, .. }
-        | MaterialData::Coated { finish, .. } => finish.grain,
+    let grain = match &data.surface {
+        SurfaceData::Conductor { finish, .. }
+        | SurfaceData::Dielectric { finish, .. }
+        | SurfaceData::Coated { finish, .. } => finish.grain,
         _ => None,
     };
-    let grain = grain.map(|grain| unit(&place(name), "grain", grain)).transpose()?;
-    Ok(Material { grain: grain.map(|grain| grain.to_array()), ..Material::new(name, surface) })
+    let grain = grain.map(|grain| unit(&place, "grain", grain)).transpose()?;
+    let overrides = data
+        .coefficients
+        .iter()
+        .map(|one| overrides(one, &place, curves, range))
+        .collect::<Result<Vec<_>, _>>()?;
+    let grain = grain.map(|grain| grain.to_array());
+    Ok(Material { name: data.name.clone(), surface, grain, overrides })
 }
 
 /// What images say of each material.
