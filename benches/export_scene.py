@@ -61,7 +61,7 @@ def export(scene: Scene, path: Path) -> None:
     for number, ((shape, transforms), object_) in enumerate(
         zip(scene.placements(), description["objects"], strict=True)
     ):
-        material = description["materials"][object_["material"]]
+        material = description["materials"][object_["material"]]["surface"]
         if shapes[shape]["kind"] != "mesh" or material["kind"] != "diffuse":
             raise ValueError(f"object {object_['name']!r}: only diffuse meshes are exported")
         linear, shift = transforms[0][:, :3], transforms[0][:, 3]

@@ -96,7 +96,7 @@ def test_a_newcomer_gets_from_the_starter_to_an_own_material(repository, newcome
     assert follow(repository / "docs" / "first-material.md", capsys) >= 10
     made = {path.name for path in newcomer.iterdir()}
     assert made >= {"room.png", "room.exr", "darker.png", "fine.exr", "coarse.exr", "day.png", "evening.png"}
-    material = illuminant.load("room.toml").description["materials"][0]
+    material = illuminant.load("room.toml").description["materials"][0]["surface"]
     curve = illuminant.load("room.toml").description["curves"][material["reflectance"]]
     assert max(curve["values"]) == 0.389, "the paint is the reader's own"
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from illuminant import finishes, optics
 from illuminant.errors import DataError
@@ -36,6 +36,7 @@ __all__ = [
     "average_index",
     "coefficients",
     "energies",
+    "preset",
     "propose",
     "source_curve",
 ]
@@ -44,6 +45,14 @@ AMBIENT = {"space": 0.0, "night": 0.05, "clear day": 0.15, "light interior": 0.1
 """Multipliers of ambient light (book II.1.5: 0 to 0.3)."""
 
 CHARACTERS = ("dielectric", "metal", "composite")
+
+PRESETS: dict[str, tuple[str, str]] = {
+    "dielectric": ("crown glass", "gloss"),
+    "metal": ("copper", "satin"),
+    "plastic": ("red plastic", "gloss"),
+    "paint": ("blue paint", "matte"),
+}
+"""The kinds of material of `preset`, with what they are and their finish if nothing else is said."""
 
 EXPONENTS = (330, 215, 135, 80, 45, 25, 15, 10, 7, 5)
 
@@ -207,6 +216,48 @@ def propose(character: str, finish: str | float) -> Proposal:
         # The pigment returns what the surface lets in; the highlight is the surface's.
         specular, diffuse = 0.5 * specular, 1.0 - 0.5 * specular
     return Proposal(beta, float(optics.lobe_coefficient("blinn", beta)), diffuse, diffuse, specular)
+
+
+def preset(kind: str, name: str = "", finish: str = "") -> dict[str, Any]:
+    """A material of the scene file by book appendix II: physics for `general`, coefficients for the other models.
+
+    Args:
+        kind: "dielectric", "metal", "plastic" or "paint".
+        name: what it is, in the words of `illuminant.materials`, such as "gold" or "green paint".
+        finish: the name of a finish, such as "polished", "satin" or "matte".
+
+    Returns:
+        The table `[materials.NAME]`, in which C_Ka = C_Kd, and C_Kd and C_Ks follow from the width of the highlight
+        (book II.2, figure II.3).
+
+    Raises:
+        DataError: there is no such kind, or the words are not understood.
+
+    Example:
+        >>> made = preset("metal", "gold", "polished")
+        >>> told = made["coefficients"]["all"]
+        >>> made["metal"], told["ambient"] == told["diffuse"], told["specular"] > 0.9
+        ('gold', True, True)
+    """
+    from illuminant import materials
+
+    if kind not in PRESETS:
+        raise DataError(f'a preset is one of {", ".join(PRESETS)}; found "{kind}"')
+    usual, usual_finish = PRESETS[kind]
+    words = f"{name or usual}, {finish or usual_finish}"
+    table = materials.find(words)
+    character = {"dielectric": "dielectric", "conductor": "metal"}.get(table["kind"], "composite")
+    wanted = kind if kind in CHARACTERS else "composite"
+    if character != wanted:
+        raise DataError(f'"{words}" is no {kind}; for example "{usual}"')
+    proposal = propose(character, finish or usual_finish)
+    told = {
+        "ambient": round(proposal.ambient, 4),
+        "diffuse": round(proposal.diffuse, 4),
+        "specular": round(proposal.specular, 4),
+        "half_angle_deg": round(math.degrees(proposal.beta), 4),
+    }
+    return table | {"coefficients": {"all": told}}
 
 
 def advise(chosen: Proposal) -> list[str]:

@@ -32,5 +32,6 @@ FITTING: dict[str, tuple[str, ...]] = {
     "directional": ("illuminance_lx", "irradiance_w_m2"),
     "environment": ("luminance_cd_m2", "illuminance_lx", "radiance_scale"),
     "environment image": ("luminance_cd_m2",),
+    "fog": ("luminance_cd_m2", "radiance_scale"),
 }
 """The quantity keys that each kind of source takes; the other keys are refused there with a sentence."""

@@ -14,7 +14,7 @@ import re
 import tomllib
 from typing import Any, get_args
 
-from illuminant import schema, texture_schema
+from illuminant import coefficient_schema, schema, texture_schema
 from illuminant.quantities import FITTING, QUANTITIES
 from illuminant.report import kind_of
 
@@ -123,6 +123,7 @@ def scene_file_reference() -> str:
         _keys(schema.SpectrumTable),
         "## Materials\n\nA material is a table `[materials.NAME]`; `kind` says which one it is.\n",
         *(_kind("materials", name, model) for name, model in schema.KINDS_OF_MATERIAL.items()),
+        _table("`coefficients` for one model", coefficient_schema.Coefficients),
         IMAGES,
         _table("An image in place of a reflectance", texture_schema.ColourImage),
         _table("An image in place of a roughness", texture_schema.SlopeImage),
@@ -141,6 +142,9 @@ def scene_file_reference() -> str:
         "## Lights\n\nA light is a table `[lights.NAME]`; `kind` says which one it is. Objects with an emitter "
         "material shine too.\n",
         *(_kind("lights", name, model) for name, model in schema.KINDS_OF_LIGHT.items()),
+        "## Atmosphere\n\n`[atmosphere]` says what becomes of light on its way to the eye; `kind` says how. These are "
+        "effects for the eye, not media: light between surfaces does not know of them.\n",
+        *(_kind("atmosphere", name, model) for name, model in schema.KINDS_OF_ATMOSPHERE.items()),
         QUANTITY,
         _quantities(),
     ]
@@ -195,6 +199,7 @@ def _type(field: Any, name: str) -> str:
         "SlopeImage": "number or image",
         "HeightImage": "table",
         "NormalImage": "table",
+        "dict[str": "table of tables",
         "SpectrumTable": "spectrum",
         "MeshTable": "text or table",
         "_axis_form": "`x`, `y`, `z` or 3 numbers",

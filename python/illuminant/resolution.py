@@ -19,11 +19,20 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from illuminant import environments, finishes, materials, placement, spectra
+from illuminant.coefficient_schema import ALL_MODELS, Coefficients
+from illuminant.core import core
 from illuminant.curves import Curves, curve_from_spectrum
 from illuminant.errors import DataError, ImageError, suggestion
 from illuminant.quantities import FITTING, QUANTITIES
 from illuminant.report import Path, Report, found, read_table
-from illuminant.schema import KINDS_OF_LIGHT, KINDS_OF_MATERIAL, MAX_PIXELS, Camera, Table
+from illuminant.schema import (
+    KINDS_OF_ATMOSPHERE,
+    KINDS_OF_LIGHT,
+    KINDS_OF_MATERIAL,
+    MAX_PIXELS,
+    Camera,
+    Table,
+)
 from illuminant.spectra import Spectrum
 from illuminant.texture_schema import ColourImage, SlopeImage
 from illuminant.textures import Textures
@@ -40,6 +49,7 @@ NAMES_OF_SOURCES = {
     "directional": "a directional light",
     "environment": "an environment",
     "environment image": "an environment image",
+    "fog": "fog",
 }
 
 
@@ -92,7 +102,7 @@ class Resolver:
             return None
         if table.kind == "named":
             return self._named(name, table, bad, path)
-        entry: dict[str, Any] = {"name": name, "kind": table.kind}
+        entry: dict[str, Any] = {"kind": table.kind}
         skin: dict[str, Any] = {}
         emission = None
         if table.kind == "diffuse":
@@ -124,14 +134,18 @@ class Resolver:
         if table.kind == "conductor":
             self._conductor_form(raw, path)
         self._on_surface(table, raw, bad, path, skin)
-        return None if len(self.report.problems) > before else Material(entry, skin, emission)
+        told = [] if "coefficients" in bad else self._coefficients(table.coefficients, path)
+        if len(self.report.problems) > before:
+            return None
+        return Material({"name": name, "surface": entry, "coefficients": told}, skin, emission)
 
     def _named(self, name: str, table: Any, bad: set[str], path: Path) -> Material | None:
         """A material in words, by the table of the scene file that they stand for."""
         if "name" in bad:
             return None
+        told = {} if table.coefficients is None else {"coefficients": table.coefficients}
         try:
-            return self.material(name, materials.find(table.name))
+            return self.material(name, materials.find(table.name) | told)
         except DataError as error:
             self.report.add((*path, "name"), error.message, kind="unknown-material")
             return None
@@ -248,6 +262,34 @@ class Resolver:
             image = getattr(table, key, None)
             if image is not None and key not in bad:
                 skin["relief"] = self.textures.relief(image, (*path, key), self.unit_m)
+
+    def _coefficients(self, tables: dict[str, Any] | None, path: Path) -> list[dict[str, Any]]:
+        """What historical models are told, one entry for each that is named."""
+        models = dict.fromkeys(illumination for _, illumination, *_ in core().pairs())
+        historical = [model for model in models if model != "general"]
+        entries = []
+        for model, raw in (tables or {}).items():
+            place = (*path, "coefficients", model)
+            if model not in (*historical, ALL_MODELS):
+                message = f"is no historical model; known are {', '.join(historical)}, and {ALL_MODELS}"
+                if model == "general":
+                    message = "has no coefficients: it follows the physics of the surface"
+                self.report.add(place, message, suggestion(model, historical), "unknown-key")
+                continue
+            table, bad = read_table(Coefficients, raw, place, self.report)
+            if table is None:
+                continue
+            if table.half_angle_deg is not None and table.exponent is not None:
+                message = "is given twice: half_angle_deg says it too"
+                self.report.add((*place, "exponent"), message, kind="exactly-one")
+            entry: dict[str, Any] = {} if model == ALL_MODELS else {"model": model}
+            for key, value in table.model_dump(exclude_none=True).items():
+                if key.endswith("_curve"):
+                    entry[key] = self._spectrum(table, bad, key, "reflectance", place)
+                else:
+                    entry[key] = value
+            entries.append(entry)
+        return entries
 
     def _conductor_form(self, raw: dict[str, Any], path: Path) -> None:
         if "metal" in raw:
@@ -395,6 +437,27 @@ class Resolver:
             raise ImageError(f"must be the name of a file, found {found(image)}")
         return environments.checked(image)
 
+    # --- atmosphere --------------------------------------------------------------------------------------------
+
+    def atmosphere(self, raw: Any) -> dict[str, Any] | None:
+        """What is left of radiance on its way to the eye, or None after reporting mistakes."""
+        path: Path = ("atmosphere",)
+        before = len(self.report.problems)
+        table, bad = self._kind(KINDS_OF_ATMOSPHERE, raw, path)
+        if table is None:
+            return None
+        entry: dict[str, Any] = {"kind": table.kind}
+        if table.kind == "fog":
+            entry |= {"start": table.start * self.unit_m, "end": table.end * self.unit_m}
+            if not {"start", "end"} & bad and table.start >= table.end:
+                message = f"must be beyond start, {table.start:g}, found {table.end:g}"
+                self.report.add((*path, "end"), message, kind="range")
+            entry["spectrum"] = self._spectrum(table, bad, "spectrum", "emission", path)
+            entry["quantity"] = self._quantity(table, raw, "fog", path)
+        else:
+            entry |= {"power": float(table.power), "unit": table.unit * self.unit_m}
+        return None if len(self.report.problems) > before else entry
+
     # --- camera ------------------------------------------------------------------------------------------------
 
     def camera(self, raw: Any) -> dict[str, Any] | None:
@@ -519,7 +582,10 @@ def indexed(description: dict[str, Any]) -> dict[str, Any]:
             return {key: walked[key] for key in value}
         return [walk(one) for one in value] if isinstance(value, list) else value
 
-    parts = {key: walk(description[key]) for key in ("materials", "skins", "objects", "lights", "camera")}
+    parts = {
+        key: walk(description[key])
+        for key in ("materials", "skins", "objects", "lights", "camera", "atmosphere")
+    }
     return {"range": description["range"], "curves": curves, **parts}
 
 
@@ -529,7 +595,8 @@ def in_place(description: Mapping[str, Any]) -> dict[str, Any]:
         Spectrum(curve["name"], curve["wavelengths"], curve["values"], curve["outside"])
         for curve in description["curves"]
     ]
-    keys = ("reflectance", "transmittance", "pigment", "n", "k", "absorption", "spectrum")
+    curve_keys = ("reflectance", "transmittance", "pigment", "n", "k", "absorption", "spectrum")
+    keys = (*curve_keys, "diffuse_curve", "specular_curve", "transmitted_curve")
 
     def walk(value: Any) -> Any:
         if isinstance(value, dict):

@@ -123,6 +123,7 @@ class Scene:
         materials: Mapping[str, Mapping[str, Any]],
         lights: Mapping[str, Mapping[str, Any]] | None = None,
         spectra: Mapping[str, Any] | None = None,
+        atmosphere: Mapping[str, Any] | None = None,
         render: Mapping[str, Any] | None = None,
         title: str = "",
         length_unit: str = "m",
@@ -143,6 +144,7 @@ class Scene:
             materials: the tables `[materials.NAME]`.
             lights: the tables `[lights.NAME]`.
             spectra: the table `[spectra]`.
+            atmosphere: the table `[atmosphere]`.
             render: the table `[render]`.
             title: what the scene shows.
             length_unit: unit of all lengths: m, cm, mm, in, ft.
@@ -181,6 +183,7 @@ class Scene:
             "materials": materials,
             "lights": lights,
             "spectra": spectra,
+            "atmosphere": atmosphere,
             "render": render,
         }
         return scene_file.resolve(

@@ -33,7 +33,7 @@ MAX_BYTES = 100_000_000
 """The largest scene file."""
 
 NO_LIGHT = "the scene has no light; expected an object with an emitter material, or a table [lights.NAME]"
-TABLES = ("camera", "render", "spectra", "materials", "objects", "lights")
+TABLES = ("camera", "render", "spectra", "materials", "objects", "lights", "atmosphere")
 
 
 def load(path: str | os.PathLike[str]) -> Scene:
@@ -179,6 +179,7 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
         camera = None
     materials = {name: resolver.material(name, raw) for name, raw in tables["materials"].items()}
     lights = [resolver.light(name, raw) for name, raw in tables["lights"].items()]
+    atmosphere = resolver.atmosphere(tables["atmosphere"]) if "atmosphere" in data else None
     placer = ObjectResolver(report, head.length_unit, head.up, directory)
     placed = {name: placer.placed(name, raw, materials) for name, raw in tables["objects"].items()}
     if not placed and not any(problem.table == "objects" for problem in report.problems):
@@ -215,6 +216,7 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
         "objects": objects,
         "lights": lights,
         "camera": camera,
+        "atmosphere": atmosphere,
     }
     images = {f"image:{name}": image for name, image in resolver.all_images().items()}
     arrays = _arrays(arrangement) | images

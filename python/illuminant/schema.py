@@ -32,6 +32,7 @@ from illuminant.texture_schema import (
 )
 
 __all__ = [
+    "KINDS_OF_ATMOSPHERE",
     "KINDS_OF_LIGHT",
     "KINDS_OF_MATERIAL",
     "MAX_PIXELS",
@@ -148,6 +149,13 @@ BUMP = key("image of heights that perturb the normal", '{ image = "images/dents.
 NORMAL_MAP = key("image of normals that perturb the normal", '{ image = "images/normals.png" }', None)
 
 
+COEFFICIENTS = key(
+    "what historical models are told instead of what the rule derives: a table for each model by its name, or `all`",
+    "{ phong = { diffuse = 0.35, specular = 0.95, exponent = 330.0 } }",
+    None,
+)
+
+
 class Diffuse(Table):
     """A surface that scatters light equally in all directions (Lambert)."""
 
@@ -157,6 +165,7 @@ class Diffuse(Table):
     )
     bump: HeightImage | None = BUMP
     normal_map: NormalImage | None = NORMAL_MAP
+    coefficients: dict[str, Any] | None = COEFFICIENTS
 
 
 # The keys of a relief, which stand in every rough material.
@@ -200,6 +209,7 @@ class Conductor(Table):
     finish: str | None = FINISH
     bump: HeightImage | None = BUMP
     normal_map: NormalImage | None = NORMAL_MAP
+    coefficients: dict[str, Any] | None = COEFFICIENTS
 
 
 class Dielectric(Table):
@@ -216,6 +226,7 @@ class Dielectric(Table):
     finish: str | None = FINISH
     bump: HeightImage | None = BUMP
     normal_map: NormalImage | None = NORMAL_MAP
+    coefficients: dict[str, Any] | None = COEFFICIENTS
     absorption: SpectrumValue | None = key(
         "absorption coefficient of the inside, in 1/m (always, whatever `length_unit` is); default none",
         "{ wavelengths_nm = [380.0, 780.0], values = [2.0, 0.5] }",
@@ -247,6 +258,7 @@ class Coated(Table):
     finish: str | None = FINISH
     bump: HeightImage | None = BUMP
     normal_map: NormalImage | None = NORMAL_MAP
+    coefficients: dict[str, Any] | None = COEFFICIENTS
     pigment: ColourValue | None = key(
         "reflectance of the pigment for diffuse light in the vehicle, 0 to 1, or an image of it", "0.8", None
     )
@@ -272,6 +284,7 @@ class Named(Table):
 
     kind: Literal["named"] = key("the kind of material", '"named"')
     name: str = key("what it is, then its finish, after a comma", '"copper, circular mill"')
+    coefficients: dict[str, Any] | None = COEFFICIENTS
 
 
 class ThinFilter(Table):
@@ -283,6 +296,7 @@ class ThinFilter(Table):
 
     kind: Literal["filter"] = key("the kind of material", '"filter"')
     transmittance: ColourValue = key("fraction of light let through, 0 to 1, or an image of it", '"gels.csv"')
+    coefficients: dict[str, Any] | None = COEFFICIENTS
 
 
 class Emitter(Quantities):
@@ -307,6 +321,7 @@ class Emitter(Quantities):
         "the sides that shine; front is where the normal points", '"both"', "front"
     )
     reflectance: SpectrumValue | None = key("fraction of light reflected; default 0", "0.78", None)
+    coefficients: dict[str, Any] | None = COEFFICIENTS
 
 
 class Point(Quantities):
@@ -379,6 +394,29 @@ class Environment(Quantities):
     )
 
 
+class Fog(Quantities):
+    """Fog that what is seen fades into, linearly from `start` to `end` (book eq 4.10).
+
+    Distances are from the eye; beyond `end`, and where nothing is met, the fog alone is seen. Exactly one quantity.
+    """
+
+    kind: Literal["fog"] = key("the kind of atmosphere", '"fog"')
+    start: Annotated[float, Field(ge=0)] = key("where fading begins, in length units", "2.0", 0.0)
+    end: Positive = key("where nothing but the fog is seen, in length units", "20.0")
+    spectrum: SpectrumValue = key("spectrum of the fog's light", '"D65"')
+
+
+class Distance(Table):
+    """Radiance that falls as a power of the distance to the eye: (unit / distance)^power.
+
+    A power of 1 is Warnock's (1969), 2 and 4 are Romney's (1969). What surrounds the scene has no distance.
+    """
+
+    kind: Literal["distance"] = key("the kind of atmosphere", '"distance"')
+    power: Annotated[float, Field(gt=0, le=16)] = key("exponent", "2.0", 1.0)
+    unit: Positive = key("distance at which nothing is lost or gained, in length units", "3.0", 1.0)
+
+
 MaterialValue = Diffuse | Conductor | Dielectric | Coated | Named | ThinFilter | Emitter
 LightValue = Point | Spot | Directional | Environment
 
@@ -398,6 +436,8 @@ KINDS_OF_LIGHT: dict[str, type[Table]] = {
     "environment": Environment,
 }
 
+KINDS_OF_ATMOSPHERE: dict[str, type[Table]] = {"fog": Fog, "distance": Distance}
+
 
 class SceneFile(Table):
     """The top of the file."""
@@ -414,3 +454,4 @@ class SceneFile(Table):
     materials: dict[str, MaterialValue] = key("materials by name", "", {})
     objects: dict[str, Object] = key("objects by name", "", {})
     lights: dict[str, LightValue] = key("lights by name", "", {})
+    atmosphere: Fog | Distance | None = key("what becomes of light on its way to the eye", "", None)

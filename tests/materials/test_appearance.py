@@ -6,6 +6,7 @@ import pytest
 
 from illuminant import appearance, optics, spectra
 from illuminant.errors import DataError
+from illuminant.scene import Scene
 
 
 def test_twenty_spheres_from_sharp_to_matte() -> None:
@@ -64,3 +65,28 @@ def test_curves_of_homogeneous_and_composite_materials() -> None:
 def test_mistakes_are_told(call: object) -> None:
     with pytest.raises(DataError):
         call()  # type: ignore[operator]
+
+
+@pytest.mark.parametrize("kind", list(appearance.PRESETS))
+@pytest.mark.parametrize("finish", ["gloss", "satin", "matte"])
+def test_presets_keep_the_rules_and_are_materials(kind: str, finish: str) -> None:
+    table = appearance.preset(kind, finish=finish)
+    told = table["coefficients"]["all"]
+    assert told["ambient"] == told["diffuse"]
+    assert told["diffuse"] + told["specular"] == pytest.approx(1.0, abs=1e-3)
+    scene = Scene.build(
+        camera={"eye": [0, 0, 3], "target": [0, 0, 0]},
+        objects={"ball": {"sphere": {"radius": 1.0}, "material": "m"}},
+        materials={"m": table},
+        lights={"sky": {"kind": "environment", "spectrum": "D65", "luminance_cd_m2": 100.0}},
+    )
+    entry = scene.description["materials"][0]
+    assert entry["coefficients"] == [told]
+    assert entry["surface"]["kind"] == {"dielectric": "dielectric", "metal": "conductor"}.get(kind, "coated")
+
+
+def test_a_preset_of_another_kind_is_refused() -> None:
+    with pytest.raises(DataError, match="is no metal"):
+        appearance.preset("metal", "red paint")
+    with pytest.raises(DataError, match="a preset is one of"):
+        appearance.preset("wood")

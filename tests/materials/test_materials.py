@@ -18,7 +18,7 @@ def scene_of(table: dict) -> Scene:
 
 
 def entry(table: dict) -> dict:
-    return scene_of(table).description["materials"][0]
+    return scene_of(table).description["materials"][0]["surface"]
 
 
 def test_the_heights_of_table_2_1() -> None:

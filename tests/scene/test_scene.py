@@ -34,7 +34,16 @@ def small(**changes) -> Scene:
 def test_the_description_is_in_metres_and_has_what_the_core_reads():
     scene = small()
     description = scene.description
-    assert list(description) == ["range", "curves", "materials", "objects", "lights", "camera"]
+    assert list(description) == [
+        "range",
+        "curves",
+        "materials",
+        "skins",
+        "objects",
+        "lights",
+        "camera",
+        "atmosphere",
+    ]
     assert description["camera"] == {
         "eye": [0.0, 0.0, 3.0],
         "target": [0.0, 0.0, 0.0],
@@ -45,8 +54,8 @@ def test_the_description_is_in_metres_and_has_what_the_core_reads():
         "shutter": [0.0, 0.0],
     }
     assert description["materials"] == [
-        {"name": "grey", "kind": "diffuse", "reflectance": 0},
-        {"name": "lamp", "kind": "diffuse", "reflectance": 0},
+        {"name": "grey", "surface": {"kind": "diffuse", "reflectance": 0}, "coefficients": []},
+        {"name": "lamp", "surface": {"kind": "diffuse", "reflectance": 0}, "coefficients": []},
     ]
     assert description["objects"][2]["emission"] == {
         "spectrum": 1,
@@ -235,7 +244,7 @@ def test_spectra_and_images_may_be_objects_and_arrays():
     )
     assert scene.arrays["image:sky"].dtype == np.float32
     assert scene.description["lights"][0]["image"] == "sky"
-    red = scene.description["curves"][scene.description["materials"][0]["reflectance"]]
+    red = scene.description["curves"][scene.description["materials"][0]["surface"]["reflectance"]]
     assert tuple(red["values"]) == spectra.load("ColorChecker/red").values
     image[:] = 0.0  # the scene has its own
     assert scene.arrays["image:sky"].max() == 1.0
@@ -267,7 +276,7 @@ def test_rgb_becomes_a_spectrum_by_its_role():
             "lamp": small_materials(0.5)["lamp"],
         }
     )
-    curve = grey.description["curves"][grey.description["materials"][0]["reflectance"]]
+    curve = grey.description["curves"][grey.description["materials"][0]["surface"]["reflectance"]]
     assert np.allclose(curve["values"], 0.5, atol=1e-3)  # a neutral scene stays neutral
     assert curve["outside"] == "hold"
 
@@ -281,7 +290,7 @@ def test_the_rule_outside_follows_the_use():
             "lamp": {"kind": "emitter", "spectrum": "points", "flux_lm": 1},
         },
     )
-    reflectance = scene.description["curves"][scene.description["materials"][0]["reflectance"]]
+    reflectance = scene.description["curves"][scene.description["materials"][0]["surface"]["reflectance"]]
     emission = scene.description["curves"][scene.description["objects"][2]["emission"]["spectrum"]]
     assert (reflectance["outside"], emission["outside"]) == ("hold", "zero")
 

@@ -14,6 +14,8 @@ NAMES = [
     "colorchecker-a",
     "colorchecker-d65",
     "colorchecker-fl11",
+    "copper-spheres",
+    "copper-spheres-mapped",
     "cornell",
     "cornell-fl11",
     "demo",
@@ -51,7 +53,7 @@ def test_the_demo_is_large_enough_and_smooth_lit(scenes):
     width, height = scene.description["camera"]["size"]
     assert width >= 960
     assert height >= 540
-    kinds = {material["kind"] for material in scene.description["materials"]}
+    kinds = {material["surface"]["kind"] for material in scene.description["materials"]}
     assert kinds == {"diffuse", "conductor", "dielectric"}
 
 

@@ -26,6 +26,9 @@ pub struct Description {
     pub lights: Vec<LightData>,
     /// The camera.
     pub camera: CameraData,
+    /// What becomes of light on its way to the eye.
+    #[serde(default)]
+    pub atmosphere: Option<AtmosphereData>,
 }
 
 /// A curve on wavelength.
@@ -448,6 +451,30 @@ pub enum UpAxis {
     Y,
     /// z.
     Z,
+}
+
+/// What becomes of light on its way to the eye.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum AtmosphereData {
+    /// Fog, linearly from one distance to another.
+    Fog {
+        /// Where fading begins, m.
+        start: f64,
+        /// Where nothing else is seen, m.
+        end: f64,
+        /// Index of the curve of its light.
+        spectrum: usize,
+        /// How bright.
+        quantity: Quantity,
+    },
+    /// A power of the distance.
+    Distance {
+        /// The exponent.
+        power: f64,
+        /// Where nothing is lost or gained, m.
+        unit: f64,
+    },
 }
 
 /// The camera.

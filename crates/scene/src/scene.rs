@@ -2,8 +2,8 @@
 
 use crate::coefficients::overrides;
 use crate::description::{
-    CurveData, Description, DistributionData, FinishData, LightData, MaterialData, ShapeData, Sides,
-    SurfaceData, UpAxis,
+    AtmosphereData, CurveData, Description, DistributionData, FinishData, LightData, MaterialData, ShapeData,
+    Sides, SurfaceData, UpAxis,
 };
 use crate::environment::EnvironmentImage;
 use crate::lamp::{Lamp, LampForm, SurfaceLamp, spot_solid_angle};
@@ -13,7 +13,7 @@ use crate::skin::{Skin, Textures};
 use crate::{Camera, Geometry};
 use glam::{DVec3, Mat3, Vec3};
 use illuminant_color::RgbSystem;
-use illuminant_illumination::{Film, Finish, Flakes, Material, Surface};
+use illuminant_illumination::{Atmosphere, Film, Finish, Flakes, Material, Surface};
 use illuminant_optics::facets::Shape;
 use illuminant_optics::goniometry::Distribution;
 use illuminant_spectrum::{Curve, Observer, SpectralRange};
@@ -69,6 +69,8 @@ pub struct Scene {
     pub surroundings: Vec<usize>,
     /// The camera.
     pub camera: Camera,
+    /// What becomes of light on its way to the eye, and the radiance of the fog.
+    pub atmosphere: (Atmosphere, Curve),
 }
 
 impl Scene {
@@ -126,6 +128,7 @@ impl Scene {
             lamps.push(self::lamp(light, &curves, images, range)?);
         }
         let camera = camera(description)?;
+        let atmosphere = atmosphere(description, &curves, range)?;
         let (low, high) = geometry.bounds();
         let eye = camera.eye().as_vec3();
         let radius = f64::from((high.max(eye) - low.min(eye)).length() / 2.0).max(1e-6);
@@ -134,7 +137,18 @@ impl Scene {
         let around = |l: &Lamp| matches!(l.form, LampForm::Uniform | LampForm::Image(_));
         let surroundings = (0..lamps.len()).filter(|&i| around(&lamps[i])).collect();
         let chooser = chooser(&lamps, &luminous, radius);
-        Ok(Self { geometry, range, materials, skins, objects, lamps, chooser, surroundings, camera })
+        Ok(Self {
+            geometry,
+            range,
+            materials,
+            skins,
+            objects,
+            lamps,
+            chooser,
+            surroundings,
+            camera,
+            atmosphere,
+        })
     }
 
     /// The reflectances by which the scene's light is coloured: one for each material.
@@ -441,6 +455,32 @@ fn lamp(
                 EnvironmentImage::new((*width, *height), rgb, &system, white.clone(), turn * to_y_up, range)
                     .map_err(|text| error(&place, text))?;
             Ok(Lamp { name: name.clone(), spectrum: white, form: LampForm::Image(Box::new(image)) })
+        }
+    }
+}
+
+fn atmosphere(
+    description: &Description,
+    curves: &[Curve],
+    range: SpectralRange,
+) -> Result<(Atmosphere, Curve), SceneError> {
+    let place = "atmosphere";
+    let dark = Curve::constant(0.0);
+    match description.atmosphere {
+        None => Ok((Atmosphere::Clear, dark)),
+        Some(AtmosphereData::Distance { power, unit }) => {
+            if !(power > 0.0 && power.is_finite() && unit > 0.0 && unit.is_finite()) {
+                return Err(error(place, "power and unit must be above 0"));
+            }
+            Ok((Atmosphere::InversePower { power, unit }, dark))
+        }
+        Some(AtmosphereData::Fog { start, end, spectrum, quantity }) => {
+            if !(start >= 0.0 && end > start && end.is_finite()) {
+                return Err(error(place, "fog needs 0 ≤ start < end"));
+            }
+            let fog = absolute_spectrum(get(curves, spectrum, place)?, quantity, Source::Surround, range)
+                .map_err(|problem| error(place, problem))?;
+            Ok((Atmosphere::Fog { start, end }, fog))
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod film;
 mod filter;
+mod haze;
 mod lanes;
 mod media;
 pub mod pairs;

@@ -7,6 +7,7 @@
 
 use crate::film::{LayerPlan, TOO_LARGE, TileFilm};
 use crate::filter::FilterSampler;
+use crate::haze::Haze;
 use crate::lanes::Pass;
 use crate::path::{Counts, PathTracer, Primary, Probe, Query, Recorder, Vertex};
 use crate::render::RenderError;
@@ -32,6 +33,8 @@ pub(crate) struct Job {
     /// The group of each lamp: lamps of a group share a bundle.
     pub group_of: Vec<usize>,
     pub albedo: Vec<[f32; 3]>,
+    /// What the air leaves of what is seen.
+    pub haze: Option<Haze>,
 }
 
 #[derive(Default)]
@@ -215,6 +218,9 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
                         }
                     });
                 values[..3].copy_from_slice(&xyz);
+                if let Some(haze) = &job.haze {
+                    haze.apply(&primary, &mut values);
+                }
                 if !plain {
                     auxiliary_layers(job, &primary, sample, &mut values);
                 }

@@ -2,6 +2,7 @@
 
 use crate::film::{Film, TOO_LARGE, TileFilm};
 use crate::filter::FilterSampler;
+use crate::haze::Haze;
 use crate::pairs;
 use crate::passes::{Job, Light, Replay, TileCounts, TileRenderer, group_lamps, renderer};
 use crate::path::Query;
@@ -170,6 +171,7 @@ impl Render {
         let albedo = albedo.collect();
         let job = Job {
             albedo,
+            haze: Haze::new(&scene, &film.plan, &*basis),
             filter: FilterSampler::new(&settings.filter),
             plan: film.plan.clone(),
             channels: film.channels(),

@@ -75,6 +75,7 @@ fn job(scene: &Arc<Scene>, settings: &Settings, group_of: Vec<usize>) -> Job {
         channels: 0,
         group_of,
         albedo: Vec::new(),
+        haze: None,
     }
 }
 

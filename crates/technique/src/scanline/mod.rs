@@ -22,7 +22,7 @@ use crate::settings::{Interpolation, Layer, Settings, Shading, Technique};
 use ahead::{Channels, ShadedPass, channels_of_lanes};
 use edges::Quad;
 use fast_phong::FastPhong;
-use illuminant_illumination::{IlluminationModel, Prepare};
+use illuminant_illumination::{Atmosphere, IlluminationModel, Prepare};
 use illuminant_scene::{Camera, Scene};
 use lighting::PARTS;
 use projection::{Polygon, Projection};
@@ -134,11 +134,13 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
             _ => 2,
         };
         let emits = !scene.surroundings.is_empty() || scene.objects.iter().any(|o| o.lamp.is_some());
-        let sees = settings.layers.iter().any(|layer| match layer {
-            Layer::Depth | Layer::Normal | Layer::Albedo => true,
-            Layer::Emission => emits,
-            _ => false,
-        });
+        let hazy = scene.atmosphere.0 != Atmosphere::Clear;
+        let sees = hazy
+            || settings.layers.iter().any(|layer| match layer {
+                Layer::Depth | Layer::Normal | Layer::Albedo => true,
+                Layer::Emission => emits,
+                _ => false,
+            });
         let mut all = Self {
             technique,
             interpolation: settings.interpolation,
@@ -210,6 +212,9 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Scanlin
             // All at once, which takes no branch.
             let sound = !self.sees && channels.iter().fold(true, |sound, v| sound & (v.abs() < TOO_LARGE));
             for (i, values) in channels.chunks_exact_mut(job.channels).enumerate() {
+                if let Some(haze) = &job.haze {
+                    haze.apply(seen.get(i).unwrap_or(&nothing), values);
+                }
                 if self.sees || replicates > 1 {
                     auxiliary_layers(job, seen.get(i).unwrap_or(&nothing), sample, values);
                 }
