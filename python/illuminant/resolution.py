@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-from illuminant import environments, finishes, materials, placement, spectra
+from illuminant import environments, finishes, materials, panoramas, placement, spectra
 from illuminant.coefficient_schema import ALL_MODELS, Coefficients
 from illuminant.core import core
 from illuminant.curves import Curves, curve_from_spectrum
@@ -412,12 +412,13 @@ class Resolver:
             self.report.add(path, "must have a spectrum or an image; found neither", kind="missing-key")
         if "spectrum" in raw:
             entry["spectrum"] = self._spectrum(table, bad, "spectrum", "emission", path)
-        if "rgb_system" in raw and "image" not in raw:
-            self.report.add((*path, "rgb_system"), "goes with image, not with spectrum", kind="unknown-key")
+        for key in ("rgb_system", "layout"):
+            if key in raw and "image" not in raw:
+                self.report.add((*path, key), "goes with image, not with spectrum", kind="unknown-key")
         if "image" in raw and "image" not in bad:
             entry["image"] = name
             try:
-                self.images[name] = self._image(table.image)
+                self.images[name] = self._image(table.image, table.layout or "latlong")
             except ImageError as error:
                 is_file = not isinstance(table.image, str) or (self.directory / table.image).is_file()
                 self.report.add((*path, "image"), str(error), kind="image" if is_file else "missing-file")
@@ -430,12 +431,13 @@ class Resolver:
             "rotation_deg": float(table.rotation_deg),
         }
 
-    def _image(self, image: Any) -> np.ndarray:
+    def _image(self, image: Any, layout: str) -> np.ndarray:
         if isinstance(image, str):
-            return environments.read(self.directory / image)
+            read = environments.read(self.directory / image)
+            return environments.checked(panoramas.latitude_longitude(read, layout))
         if isinstance(image, (dict, list, bool, int, float)):
             raise ImageError(f"must be the name of a file, found {found(image)}")
-        return environments.checked(image)
+        return environments.checked(panoramas.latitude_longitude(environments.checked(image), layout))
 
     # --- atmosphere --------------------------------------------------------------------------------------------
 

@@ -382,9 +382,15 @@ class Environment(Quantities):
         None,
     )
     image: Any = key(
-        "latitude-longitude image (HDR, EXR; PNG and JPEG are decoded from sRGB), beside the scene file; its RGB is "
+        "image of the surroundings (HDR, EXR; PNG and JPEG are decoded from sRGB), beside the scene file; its RGB is "
         "made light by upsampling",
         '"images/studio.exr"',
+        None,
+    )
+    layout: Literal["latlong", "cube", "sphere"] | None = key(
+        "how the image shows the surroundings: by latitude and longitude (default), as the faces of a cube in a row "
+        "or a cross, or in a mirrored ball; see `illuminant.panoramas`",
+        '"cube"',
         None,
     )
     rgb_system: str | None = key('RGB system of the image; default "sRGB"', '"ACES AP1"', None)

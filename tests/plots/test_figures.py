@@ -9,7 +9,7 @@ import pytest
 
 from illuminant import plots, spectra
 from illuminant.errors import ImageError, UsageError
-from illuminant.plots import labels
+from illuminant.plots import labels, lobes
 from illuminant.plots.diagram import diagram
 from illuminant.plots.monochromatic import spectrum
 from illuminant.plots.observer import for_primaries, named
@@ -249,3 +249,41 @@ def test_settings_of_the_user_change_nothing_and_no_window_is_made_ready(tmp_pat
     subprocess.run([sys.executable, "-c", program], cwd=tmp_path, check=True)
     plots.save(plots.curves(load("D65")), tmp_path / "b.svg")
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+
+
+# --- lobes ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", list(lobes.NAMES))
+@pytest.mark.parametrize("beta", [5.0, 10.0, 30.0])
+def test_every_distribution_is_half_at_beta(name: str, beta: float) -> None:
+    views = np.array([20.0 - 2 * beta, 20.0, 20.0 + 2 * beta])
+    np.testing.assert_allclose(lobes.distribution(name, beta, 20.0, views), [0.5, 1.0, 0.5], rtol=1e-9)
+
+
+def test_blinn_and_beckmann_are_alike_where_surfaces_are_not_too_rough() -> None:
+    view = np.linspace(-30.0, 90.0, 241)
+    blinn, beckmann = (lobes.distribution(name, 10.0, 30.0, view) for name in ("blinn", "cook"))
+    assert np.abs(blinn - beckmann).max() < 0.02
+
+
+def test_the_curves_of_coefficients_are_those_of_optics() -> None:
+    left, right = plots.coefficients().axes
+    phong, blinn = left.lines
+    beta = np.radians(np.asarray(phong.get_xdata(), float))
+    np.testing.assert_allclose(phong.get_ydata(), -np.log(2) / np.log(np.cos(2 * beta)), rtol=1e-9)
+    beta = np.radians(np.asarray(blinn.get_xdata(), float))
+    np.testing.assert_allclose(blinn.get_ydata(), -np.log(2) / np.log(np.cos(beta)), rtol=1e-9)
+    assert [line.get_label() for line in right.lines] == ["$C_1$", "$C_2$", "$m$"]
+
+
+def test_a_polar_plot_has_a_row_for_each_width() -> None:
+    figure = plots.distributions()
+    assert [axes.get_title(loc="left") for axes in figure.axes][::3] == [
+        "β = 10°, θ = 30°",
+        "β = 30°, θ = 30°",
+    ]
+    with pytest.raises(UsageError, match="below 45"):
+        plots.distributions(beta_deg=(50.0,))
+    with pytest.raises(UsageError, match="no distribution"):
+        plots.distributions(names=("cosine",))

@@ -23,6 +23,7 @@ NAMES = [
     "finishes",
     "metamers",
     "prism",
+    "tiles",
     "two-filters",
 ]
 

@@ -366,6 +366,17 @@ impl<const N: usize> Coated<N> {
         a.reflected + inner * a.passed * a.passed
     }
 
+    /// The share that comes from under the surface.
+    pub(crate) fn body_reflectance(&self, at: &Incidence<'_, N>) -> Lanes<N> {
+        let tables = self.tables(at);
+        let a = self.way(at, Some(tables), at.to_viewer * 1f32.copysign(at.to_viewer.z));
+        Self::diffuse(&a) * self.colour(at, tables) * tables.mean * a.passed * a.passed
+    }
+
+    pub(crate) fn gloss(&self) -> f32 {
+        self.layers.outer.gloss()
+    }
+
     /// Where directions are drawn from.
     #[inline(always)]
     fn chances(&self, at: &Incidence<'_, N>, tables: &Tables<N>, a: &Way<N>) -> Chances {

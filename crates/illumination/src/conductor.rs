@@ -95,6 +95,8 @@ pub struct Conductor<const N: usize> {
     mean: Lanes<N>,
     /// Reflectance at normal incidence as one number.
     brightness: f32,
+    /// The half-width of its highlight, radians.
+    gloss: f32,
     relief: Option<Arc<MetalRelief>>,
     coherence: Option<Arc<Coherence<N>>>,
 }
@@ -111,7 +113,11 @@ impl<const N: usize> Conductor<N> {
             Arc::new(Coherence { phase, ends, closed: Closed::new(&closure, phase, slope), closure })
         });
         let mean = fresnel.mean(&Lanes::splat(1.0));
-        Self { fresnel, mean, brightness, relief, coherence }
+        Self { fresnel, mean, brightness, gloss: finish.gloss() as f32, relief, coherence }
+    }
+
+    pub(crate) fn gloss(&self) -> f32 {
+        self.gloss
     }
 
     pub(crate) fn is_rough(&self) -> bool {

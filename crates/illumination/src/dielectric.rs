@@ -127,6 +127,10 @@ impl<const N: usize> Dielectric<N> {
         Self { dispersive, rough }
     }
 
+    pub(crate) fn gloss(&self) -> f32 {
+        self.rough.as_ref().map_or(0.0, |rough| rough.gloss())
+    }
+
     /// The relief as it is seen; `None` where there is none, or both media are one.
     #[inline(always)]
     fn seen<'a>(&'a self, at: &Incidence<'_, N>) -> Option<Seen<'a, N>> {

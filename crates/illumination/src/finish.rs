@@ -1,5 +1,6 @@
 //! The finish of a surface: what its microscopic relief looks like (book 2.2.6).
 
+use illuminant_optics::distribution::Distribution;
 use illuminant_optics::facets::Shape;
 
 /// The relief of a surface.
@@ -17,6 +18,16 @@ pub struct Finish {
 impl Finish {
     /// Below this slope a surface is taken as smooth: f32 cannot resolve its highlight.
     pub const SMOOTH: f64 = 1e-3;
+
+    /// The half-angle, radians, of the cone about the mirror direction in which its highlight has half its strength: twice β of
+    /// Beckmann's distribution with the steeper slope.
+    #[must_use]
+    pub fn gloss(&self) -> f64 {
+        if self.is_smooth() {
+            return 0.0;
+        }
+        2.0 * Distribution::Cook.half_angle(self.slope[0].max(self.slope[1]).powi(2))
+    }
 
     /// A mirror.
     pub const MIRROR: Self = Self { slope: [0.0, 0.0], sigma_nm: Some(0.0), shape: Shape::Beckmann };

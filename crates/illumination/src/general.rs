@@ -235,19 +235,32 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
         matches!(self, Self::Dielectric(_))
     }
 
-    fn ambient(&self, at: &Incidence<'_, N>) -> Lanes<N> {
+    fn ambient(&self, at: &Incidence<'_, N>) -> Components<N> {
         let mirrored = || {
             let lobes = self.discrete_lobes(at).into_iter().filter(|lobe| !lobe.transmitted);
             lobes.fold(Lanes::default(), |sum, lobe| sum + lobe.weight)
         };
-        let all = match self {
-            Self::Diffuse { brdf, .. } => return *brdf * PI,
-            Self::Filter { .. } => return Lanes::default(),
-            Self::Conductor(conductor) => conductor.reflectance(at),
-            Self::Dielectric(dielectric) => dielectric.reflectance(at),
-            Self::Coated(coated) => coated.reflectance(at),
+        let (all, diffuse) = match self {
+            Self::Diffuse { brdf, .. } => (*brdf * PI, *brdf * PI),
+            Self::Filter { .. } => return Components::default(),
+            Self::Conductor(conductor) => (conductor.reflectance(at), Lanes::default()),
+            Self::Dielectric(dielectric) => (dielectric.reflectance(at), Lanes::default()),
+            Self::Coated(coated) => (coated.reflectance(at), coated.body_reflectance(at)),
         };
-        (all - mirrored()).map(|rest| rest.max(0.0))
+        if matches!(self, Self::Diffuse { .. }) {
+            return Components { diffuse, specular: Lanes::default() };
+        }
+        let specular = (all + (diffuse + mirrored()) * -1.0).map(|rest| rest.max(0.0));
+        Components { diffuse, specular }
+    }
+
+    fn gloss(&self) -> f32 {
+        match self {
+            Self::Conductor(conductor) => conductor.gloss(),
+            Self::Dielectric(dielectric) => dielectric.gloss(),
+            Self::Coated(coated) => coated.gloss(),
+            Self::Diffuse { .. } | Self::Filter { .. } => 0.0,
+        }
     }
 
     fn see_through(&self, at: &Incidence<'_, N>) -> Lanes<N> {

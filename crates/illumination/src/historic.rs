@@ -86,6 +86,8 @@ pub struct Historic<const N: usize> {
     drawn: DrawnLobe,
     /// The brightness of the diffuse term and of the highlight, for the choice between them.
     bright: [f64; 2],
+    /// The half-width of the highlight about the mirror direction, radians.
+    gloss: f32,
     /// What becomes of a colour that an image gives.
     coloured: Coloured<N>,
 }
@@ -239,8 +241,10 @@ impl<const N: usize> Historic<N> {
         let bright = [surface.diffuse.brightness, shines * surface.specular.brightness.max(0.05) * width];
         let body = matches!(material.surface, Surface::Dielectric { .. }) && model.follows_rays();
         let lanes = |curve: &Curve| Lanes::from_slice(&basis.reduce(curve, Role::Fraction)[samples.clone()]);
+        // H at β from the normal is seen at 2β from the mirror direction.
+        let gloss = 2.0 * highlight.distribution.half_angle(highlight.coefficient) as f32;
         let coloured = Coloured::new(material, model, &curves, range, lanes);
-        Self { model, surface, index: curves.index, body, drawn, bright, coloured }
+        Self { model, surface, index: curves.index, body, drawn, bright, gloss, coloured }
     }
 
     /// The media and the view, flipped to the side of the normal unless the surface bounds a body, and how it was flipped.
@@ -431,8 +435,12 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
         self.body
     }
 
-    fn ambient(&self, _at: &Incidence<'_, N>) -> Lanes<N> {
-        self.surface.ambient.lanes
+    fn ambient(&self, _at: &Incidence<'_, N>) -> Components<N> {
+        Components { diffuse: self.surface.ambient.lanes, specular: Lanes::default() }
+    }
+
+    fn gloss(&self) -> f32 {
+        self.gloss
     }
 
     fn coloured(&self, colour: &Lanes<N>, brightness: f32) -> Self {

@@ -142,7 +142,14 @@ pub trait IlluminationModel<const N: usize>: Send + Sync {
     fn bounds_media(&self) -> bool;
 
     /// What the continuous part returns of light that comes evenly from everywhere, for techniques that do not follow it.
-    fn ambient(&self, at: &Incidence<'_, N>) -> Lanes<N>;
+    /// What is reflected by the surface itself comes from about the mirror direction.
+    fn ambient(&self, at: &Incidence<'_, N>) -> Components<N>;
+
+    /// The half-angle, radians, of the cone about the mirror direction in which a reflection map is seen: where the highlight has half its
+    /// strength.
+    fn gloss(&self) -> f32 {
+        0.0
+    }
 
     /// What the surface lets through, for techniques that look straight through it (Newell, Newell and Sancha 1972): the radiance behind
     /// it is multiplied by this, and n² is left out, which two boundaries cancel.

@@ -66,6 +66,10 @@ impl<const N: usize> RoughBoundary<N> {
         Self { finish: *finish, spectral: *spectral, pairs: ByEta::default() }
     }
 
+    pub fn gloss(&self) -> f32 {
+        self.finish.gloss() as f32
+    }
+
     /// The tables for the index of the second side, to which the normal does not point, relative to the first.
     #[inline(always)]
     pub(crate) fn pair(&self, eta: f32) -> &Pair<N> {

@@ -15,6 +15,14 @@ struct Texel {
     c: [f32; 3],
 }
 
+/// The image at a smaller size.
+#[derive(Clone, Debug)]
+struct Blurred {
+    width: usize,
+    height: usize,
+    texels: Vec<Texel>,
+}
+
 /// An image of the surroundings. The top row is the zenith; the middle column looks along −z in a y-up world, along +y
 /// in a z-up one, and columns to its right towards +x.
 #[derive(Debug)]
@@ -22,6 +30,8 @@ pub struct EnvironmentImage {
     width: usize,
     height: usize,
     texels: Vec<Texel>,
+    /// The image at half the size, and so on to one row: for what is seen blurred.
+    smaller: Vec<Blurred>,
     /// From world to a y-up frame whose −z is the middle of the image.
     to_image: Mat3,
     /// The spectrum of RGB (1, 1, 1), absolute radiance.
@@ -32,6 +42,27 @@ pub struct EnvironmentImage {
     /// ∫ L dω of the luminance of RGB relative to white, sr.
     integral: f64,
     background_mean: f64,
+}
+
+/// An image of RGB at half the size: each pixel is the mean of those that it covers, weighted by their solid angles.
+fn halved((width, height): (usize, usize), rgb: &[f32]) -> ((usize, usize), Vec<f32>) {
+    let (w, h) = ((width / 2).max(1), (height / 2).max(1));
+    let mut out = Vec::with_capacity(3 * w * h);
+    for row in 0..h {
+        for column in 0..w {
+            let (mut sum, mut weights) = ([0.0f64; 3], 0.0);
+            for y in row * height / h..(row + 1) * height / h {
+                let weight = ((y as f64 + 0.5) / height as f64 * std::f64::consts::PI).sin();
+                for x in column * width / w..(column + 1) * width / w {
+                    let pixel = &rgb[3 * (y * width + x)..][..3];
+                    sum.iter_mut().zip(pixel).for_each(|(sum, v)| *sum += weight * f64::from(*v));
+                    weights += weight;
+                }
+            }
+            out.extend(sum.map(|v| (v / weights) as f32));
+        }
+    }
+    ((w, h), out)
 }
 
 impl EnvironmentImage {
@@ -59,19 +90,24 @@ impl EnvironmentImage {
             ));
         }
         let table = sigmoid_table(system, range);
-        let texels: Vec<Texel> = rgb
-            .par_chunks_exact(3)
-            .map(|p| {
-                let rgb = [p[0], p[1], p[2]].map(f64::from);
-                let largest = rgb.iter().copied().fold(0.0, f64::max);
-                if largest == 0.0 {
-                    return Texel::default();
-                }
-                let scale = 2.0 * largest;
-                let sigmoid = table.sigmoid(rgb.map(|v| v / scale));
-                Texel { scale: scale as f32, c: sigmoid.coefficients.map(|c| c as f32) }
-            })
-            .collect();
+        let texel = |p: &[f32]| {
+            let rgb = [p[0], p[1], p[2]].map(f64::from);
+            let largest = rgb.iter().copied().fold(0.0, f64::max);
+            if largest == 0.0 {
+                return Texel::default();
+            }
+            let scale = 2.0 * largest;
+            let sigmoid = table.sigmoid(rgb.map(|v| v / scale));
+            Texel { scale: scale as f32, c: sigmoid.coefficients.map(|c| c as f32) }
+        };
+        let texels: Vec<Texel> = rgb.par_chunks_exact(3).map(texel).collect();
+        let mut smaller = Vec::new();
+        let (mut size, mut colours) = ((width, height), rgb.to_vec());
+        while size.1 > 1 {
+            (size, colours) = halved(size, &colours);
+            let texels = colours.par_chunks_exact(3).map(texel).collect();
+            smaller.push(Blurred { width: size.0, height: size.1, texels });
+        }
         let mut columns = vec![0.0f32; width * height];
         let mut rows = vec![0.0f32; height];
         let mut total = 0.0f64;
@@ -112,7 +148,7 @@ impl EnvironmentImage {
         }
         let background_mean = plain / (width * height) as f64;
         let integral = total * cell;
-        Ok(Self { width, height, texels, to_image, white, rows, columns, integral, background_mean })
+        Ok(Self { width, height, texels, smaller, to_image, white, rows, columns, integral, background_mean })
     }
 
     /// The absolute radiance of RGB (1, 1, 1).
@@ -156,16 +192,49 @@ impl EnvironmentImage {
     #[inline]
     #[must_use]
     pub fn radiance<const N: usize>(&self, uv: Vec2, t: &Lanes<N>, white: &Lanes<N>) -> Lanes<N> {
-        let x = uv.x * self.width as f32 - 0.5;
-        let y = (uv.y * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
+        Self::bilinear((self.width, self.height), &self.texels, uv, t, white)
+    }
+
+    /// The mean radiance of a cone about a point of the image, of which `radius` is the half-angle in radians: between the two sizes of
+    /// the image whose texels are as wide (book 4.1, reflection mapping with the roughness of the surface).
+    #[must_use]
+    pub fn radiance_of_cone<const N: usize>(
+        &self,
+        uv: Vec2,
+        radius: f32,
+        t: &Lanes<N>,
+        white: &Lanes<N>,
+    ) -> Lanes<N> {
+        let level = (2.0 * radius * self.height as f32 / PI).max(1.0).log2().min(self.smaller.len() as f32);
+        let of = |level: usize| match level.checked_sub(1).map(|i| &self.smaller[i]) {
+            None => self.radiance(uv, t, white),
+            Some(level) => Self::bilinear((level.width, level.height), &level.texels, uv, t, white),
+        };
+        let (below, rest) = (level as usize, level.fract());
+        if rest == 0.0 {
+            return of(below);
+        }
+        of(below) * (1.0 - rest) + of(below + 1) * rest
+    }
+
+    #[inline]
+    fn bilinear<const N: usize>(
+        (width, height): (usize, usize),
+        texels: &[Texel],
+        uv: Vec2,
+        t: &Lanes<N>,
+        white: &Lanes<N>,
+    ) -> Lanes<N> {
+        let x = uv.x * width as f32 - 0.5;
+        let y = (uv.y * height as f32 - 0.5).clamp(0.0, (height - 1) as f32);
         let (x0, y0) = (x.floor(), y.floor());
         let (fx, fy) = (x - x0, y - y0);
-        let column = |i: f32| (i as i64).rem_euclid(self.width as i64) as usize;
-        let row = |i: f32| (i as usize).min(self.height - 1);
+        let column = |i: f32| (i as i64).rem_euclid(width as i64) as usize;
+        let row = |i: f32| (i as usize).min(height - 1);
         let mut sum = Lanes::<N>::default();
         for (xi, wx) in [(x0, 1.0 - fx), (x0 + 1.0, fx)] {
             for (yi, wy) in [(y0, 1.0 - fy), (y0 + 1.0, fy)] {
-                let texel = &self.texels[row(yi) * self.width + column(xi)];
+                let texel = &texels[row(yi) * width + column(xi)];
                 let weight = wx * wy * texel.scale;
                 if weight > 0.0 {
                     let [c0, c1, c2] = texel.c;
@@ -250,6 +319,24 @@ mod tests {
         let system = RgbSystem::named("sRGB").unwrap();
         let white = Curve::constant(1.0);
         EnvironmentImage::new((w, h), &rgb, &system, white, Mat3::IDENTITY, SpectralRange::default()).unwrap()
+    }
+
+    #[test]
+    fn a_wide_cone_sees_the_mean() {
+        let (width, height) = (64, 32);
+        let rgb: Vec<f32> = (0..width * height).flat_map(|i| [(i % 2) as f32 * 2.0; 3]).collect();
+        let white = Curve::constant(1.0);
+        let system = RgbSystem::named("sRGB").unwrap();
+        let range = SpectralRange::default();
+        let image =
+            EnvironmentImage::new((width, height), &rgb, &system, white, Mat3::IDENTITY, range).unwrap();
+        let (t, one) = (Lanes::<4>([0.1, 0.3, 0.6, 0.9]), Lanes::splat(1.0));
+        let at = Vec2::new(0.31, 0.47);
+        for radius in [0.2, 0.7, 1.5] {
+            let seen = image.radiance_of_cone(at, radius, &t, &one);
+            assert!(seen.0.iter().all(|v| (v - 1.0).abs() < 0.01), "{radius} {seen:?}");
+        }
+        assert_eq!(image.radiance_of_cone(at, 0.0, &t, &one).0, image.radiance(at, &t, &one).0);
     }
 
     #[test]

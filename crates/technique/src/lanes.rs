@@ -192,6 +192,17 @@ impl<const N: usize, M> Pass<N, M> {
         }
     }
 
+    /// The mean radiance of surroundings in a cone about a direction, `radius` its half-angle in radians.
+    pub fn surroundings_in_cone(&self, scene: &Scene, lamp: usize, direction: Vec3, radius: f32) -> Lanes<N> {
+        match &scene.lamps[lamp].form {
+            LampForm::Image(image) => {
+                let uv = image.uv(direction);
+                image.radiance_of_cone(uv, radius, &self.position, &self.emission[lamp])
+            }
+            _ => self.emission[lamp],
+        }
+    }
+
     /// The lane of a sample, if it is of this pass.
     #[inline(always)]
     pub fn lane(&self, sample: usize) -> Option<usize> {

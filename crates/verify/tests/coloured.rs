@@ -53,7 +53,9 @@ fn same<M: IlluminationModel<N> + Prepare>(illumination: Illumination, basis: &d
         };
         for v in [[0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [0.98, 0.0, 0.199]] {
             let at = site.incidence(v);
-            close(own.ambient(&at), taken.ambient(&at), "ambient");
+            let (a, b) = (own.ambient(&at), taken.ambient(&at));
+            close(a.diffuse, b.diffuse, "ambient");
+            close(a.specular, b.specular, "ambient of the surface");
             close(own.see_through(&at), taken.see_through(&at), "see_through");
             for l in [Vec3::Z, Vec3::new(-0.6, 0.0, 0.8), Vec3::new(0.0, 0.9, 0.435_89)] {
                 close(own.eval(&at, l), taken.eval(&at, l), "eval");

@@ -3,6 +3,7 @@
     curves(spectra)                curves on wavelength, over a strip in the colours of the spectrum
     matching_functions(observer)   x̄, ȳ, z̄, or their like in another space or for three monochromatic lights
     chromaticity("xy")             a diagram with the spectral locus, lamps, materials and gamuts
+    distributions(), coefficients()   highlights of the literature in polar plots, and their coefficients
     projection(primaries_nm)       how the diagram of three lights comes about, in their space
     save(figure, path)             a PNG or an SVG, the same bytes for the same figure
 
@@ -22,16 +23,27 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from illuminant.plots.chromaticity_diagram import chromaticity
+    from illuminant.plots.lobes import coefficients, distributions
     from illuminant.plots.matching import matching_functions
     from illuminant.plots.projection_space import projection
     from illuminant.plots.spectral_curves import curves
     from illuminant.plots.style import save
 
-__all__ = ["chromaticity", "curves", "matching_functions", "projection", "save"]
+__all__ = [
+    "chromaticity",
+    "coefficients",
+    "curves",
+    "distributions",
+    "matching_functions",
+    "projection",
+    "save",
+]
 
 # Where each name lives; no module bears the name of a function, which importing it would replace.
 _HOME = {
     "chromaticity": "chromaticity_diagram",
+    "coefficients": "lobes",
+    "distributions": "lobes",
     "curves": "spectral_curves",
     "matching_functions": "matching",
     "projection": "projection_space",

@@ -97,14 +97,15 @@ pub(crate) fn ambient<const N: usize, M>(
 }
 
 impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
-    /// Adds `weight` times the radiance from a direction in which nothing is followed: that of the surroundings (reflection
+    /// Adds `weight` times the radiance of a cone in which nothing is followed: that of the surroundings (reflection
     /// mapping, Blinn and Newell 1976; book figure 4.2), else what stands for all light.
-    pub fn add_around(&self, direction: Vec3, weight: &Lanes<N>, to: &mut [Lanes<N>]) {
+    pub fn add_around(&self, direction: Vec3, radius: f32, weight: &Lanes<N>, to: &mut [Lanes<N>]) {
         if self.scene.surroundings.is_empty() {
             to.iter_mut().zip(self.ambient).for_each(|(sum, light)| *sum += *weight * *light);
         }
         for &lamp in &self.scene.surroundings {
-            to[self.group_of[lamp]] += *weight * self.pass.surroundings(self.scene, lamp, direction);
+            let light = self.pass.surroundings_in_cone(self.scene, lamp, direction, radius);
+            to[self.group_of[lamp]] += *weight * light;
         }
     }
 
@@ -180,7 +181,11 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
             Incidence { to_viewer: local, near: pass.index(near), far: pass.index(far), hero_lane: None };
         if !inside {
             let returned = model.ambient(&at);
-            parts.iter_mut().zip(self.ambient).for_each(|(part, light)| *part = returned * *light);
+            parts.iter_mut().zip(self.ambient).for_each(|(part, light)| *part = returned.diffuse * *light);
+            if !returned.specular.is_zero() {
+                let mirrored = frame.to_world(Vec3::new(-local.x, -local.y, local.z));
+                self.add_around(mirrored, model.gloss(), &returned.specular, &mut parts[..groups]);
+            }
         }
         if let Some(lamp) =
             object.lamp.filter(|&lamp| scene.lamps[lamp].emits(place.geometric, -place.to_viewer))
@@ -208,7 +213,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
         for lobe in model.discrete_lobes(&at) {
             if !lobe.transmitted {
                 let direction = frame.to_world(lobe.direction);
-                self.add_around(direction, &lobe.weight, &mut parts[2 * groups..3 * groups]);
+                self.add_around(direction, model.gloss(), &lobe.weight, &mut parts[2 * groups..3 * groups]);
             }
         }
         model.see_through(&at)
