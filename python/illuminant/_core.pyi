@@ -302,6 +302,9 @@ def optics(name: str, arguments: Sequence[NDArray[np.float64]]) -> NDArray[np.fl
 def rough_profile(count: int, spacing: float, sigma: float, tau: float, seed: int) -> NDArray[np.float64]:
     """The heights of a rough profile."""
 
+def copper_spheres() -> list[tuple[float, list[float], list[float]]]:
+    """N_s of the copper spheres of book figure II.5, and C_Kd and C_Ks without and with a reflection map."""
+
 def fraunhofer_lines() -> list[tuple[str, float]]:
     """The lines by which glasses are measured, in nm."""
 

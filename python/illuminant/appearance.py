@@ -21,6 +21,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from illuminant import finishes, optics
+from illuminant.core import core
 from illuminant.errors import DataError
 
 if TYPE_CHECKING:
@@ -54,23 +55,17 @@ PRESETS: dict[str, tuple[str, str]] = {
 }
 """The kinds of material of `preset`, with what they are and their finish if nothing else is said."""
 
-EXPONENTS = (330, 215, 135, 80, 45, 25, 15, 10, 7, 5)
-
-COPPER_SPHERES = tuple(
-    {"mapped": mapped, "ambient": c, "diffuse": c, "specular": specular, "exponent": exponent}
-    for mapped, diffuse, speculars in (
-        (
-            False,
-            (0.35, 0.35, 0.35, 0.36, 0.37, 0.385, 0.40, 0.43, 0.46, 0.50),
-            (0.95, 0.85, 0.75, 0.65, 0.55, 0.45, 0.35, 0.25, 0.15, 0.05),
-        ),
-        (
-            True,
-            (0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25),
-            (0.95, 0.90, 0.80, 0.70, 0.65, 0.60, 0.55, 0.50, 0.45, 0.40),
-        ),
-    )
-    for c, specular, exponent in zip(diffuse, speculars, EXPONENTS, strict=True)
+COPPER_SPHERES: tuple[dict[str, Any], ...] = tuple(
+    {
+        "mapped": mapped,
+        "ambient": multipliers[0],
+        "diffuse": multipliers[0],
+        "specular": multipliers[1],
+        "exponent": exponent,
+    }
+    for mapped in (False, True)
+    for exponent, alone, with_map in core().copper_spheres()
+    for multipliers in [with_map if mapped else alone]
 )
 """The twenty copper spheres of figures II.4 and II.5, row by row; the third is printed 0.05 and taken as 0.35, like its
 neighbours."""

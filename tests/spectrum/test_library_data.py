@@ -27,6 +27,7 @@ PAGES = {
     "diamond": ("main", "C", "Peter"),
 }
 OBSERVERS = ("cie_1931_2deg", "cie_1964_10deg", "book", "book_as_printed")
+COMPUTED = {"sRGB/red", "sRGB/green", "sRGB/blue"}
 TYPED = {"book/copper", "book/crown glass", "Cornell/white", "Cornell/green", "Cornell/red", "Cornell/light"}
 
 
@@ -93,10 +94,23 @@ def test_every_table_is_in_the_index():
 
 def test_every_curve_has_an_oracle(colour):
     charts = {"ColorChecker": "BabelColor Average", "ColorChecker Ohta": "ColorChecker N Ohta"}
-    for name in set(spectra.names()) - TYPED:
+    for name in set(spectra.names()) - TYPED - COMPUTED:
         prefix = name.split("/")[0]
         material = name.removesuffix(".n").removesuffix(".k")
         assert name in colour.SDS_ILLUMINANTS or prefix in {*charts, "TCS"} or material in PAGES
+
+
+def test_the_reflectances_of_srgb_add_up_to_its_colours():
+    nanometres = np.arange(380, 781)
+    curves = np.stack([spectra.load(name).at(nanometres) for name in ("sRGB/red", "sRGB/green", "sRGB/blue")])
+    np.testing.assert_allclose(curves.sum(axis=0), 1.0, atol=1e-9)
+    assert curves.min() >= 0.0
+    table = observer()
+    functions = table[(table[:, 0] >= 380) & (table[:, 0] <= 780), 1:]
+    light = spectra.load("D65").at(nanometres)
+    xyz = (curves * light) @ functions
+    for found, wanted in zip(xyz, [(0.64, 0.33), (0.30, 0.60), (0.15, 0.06)], strict=True):
+        np.testing.assert_allclose(found[:2] / found.sum(), wanted, atol=1e-5)
 
 
 # --- colour-science -----------------------------------------------------------------------------------------

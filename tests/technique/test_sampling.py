@@ -65,6 +65,8 @@ SCENES = [
     "colorchecker-a.toml",
     "colorchecker-d65.toml",
     "colorchecker-fl11.toml",
+    "copper-spheres-mapped.toml",
+    "copper-spheres.toml",
     "cornell-fl11.toml",
     "cornell.toml",
     "demo.toml",
@@ -72,6 +74,7 @@ SCENES = [
     "finishes.toml",
     "metamers.toml",
     "prism.toml",
+    "tiles.toml",
     "two-filters.toml",
 ]
 

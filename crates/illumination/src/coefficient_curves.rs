@@ -25,7 +25,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub const SHARPEST_BETA: f64 = 0.064_8;
 
 /// N_s of book figure II.5, sharpest first, and C_Kd and C_Ks without and with a reflection map.
-const COPPER_SPHERES: [(f64, [f64; 2], [f64; 2]); 10] = [
+pub const COPPER_SPHERES: [(f64, [f64; 2], [f64; 2]); 10] = [
     (330.0, [0.35, 0.95], [0.025, 0.95]),
     (215.0, [0.35, 0.85], [0.05, 0.90]),
     (135.0, [0.35, 0.75], [0.075, 0.80]),

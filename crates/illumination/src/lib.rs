@@ -33,7 +33,9 @@ pub use atmosphere::{Atmosphere, filter_attenuation};
 pub use blinn::Blinn;
 pub use bouknight::Bouknight;
 pub use coated::{Body, Coated, MetalUnder, Vehicle};
-pub use coefficient_curves::{CoefficientCurves, Overrides, SHARPEST_BETA, specular_and_diffuse_energy};
+pub use coefficient_curves::{
+    COPPER_SPHERES, CoefficientCurves, Overrides, SHARPEST_BETA, specular_and_diffuse_energy,
+};
 pub use conductor::{Conductor, Metal};
 pub use cook_torrance::CookTorrance;
 pub use dielectric::Dielectric;

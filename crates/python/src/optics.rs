@@ -167,8 +167,15 @@ fn cauchy(coefficients: Vec<f64>, wavelengths_nm: Vec<f64>) -> Vec<f64> {
     wavelengths_nm.into_iter().map(|nm| dispersion::cauchy(&coefficients, nm)).collect()
 }
 
+/// N_s of the copper spheres of book figure II.5, and C_Kd and C_Ks without and with a reflection map.
+#[pyfunction]
+fn copper_spheres() -> Vec<(f64, [f64; 2], [f64; 2])> {
+    illuminant_illumination::COPPER_SPHERES.to_vec()
+}
+
 pub(crate) fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(optics, m)?)?;
+    m.add_function(wrap_pyfunction!(copper_spheres, m)?)?;
     m.add_function(wrap_pyfunction!(rough_profile, m)?)?;
     m.add_function(wrap_pyfunction!(fraunhofer_lines, m)?)?;
     m.add_function(wrap_pyfunction!(sellmeier, m)?)?;

@@ -1,6 +1,6 @@
 //! `scene`: geometry, scenes and the ray library.
 
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{Affine3A, Mat3, Vec2, Vec3};
 use illuminant_scene::description::Description;
 use illuminant_scene::{Geometry, GeometryError, ImageData, Mesh, Motion, Placement, Scene, Shape, embree};
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
@@ -50,7 +50,11 @@ fn shape(dict: &Bound<'_, PyDict>) -> PyResult<Shape> {
     match required::<String>(dict, "kind")?.as_str() {
         "sphere" => {
             let center: [f32; 3] = required(dict, "center")?;
-            Ok(Shape::Sphere { center: Vec3::from(center), radius: required(dict, "radius")? })
+            Ok(Shape::Sphere {
+                center: Vec3::from(center),
+                radius: required(dict, "radius")?,
+                turn: Mat3::IDENTITY,
+            })
         }
         "mesh" => {
             let positions = columns::<3>(&required(dict, "positions")?, "positions")?;

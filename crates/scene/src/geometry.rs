@@ -178,7 +178,7 @@ impl Geometry {
                         );
                         geometry
                     }
-                    Shape::Sphere { center, radius } => {
+                    Shape::Sphere { center, radius, .. } => {
                         sphere_buffers.push([center.x, center.y, center.z, *radius]);
                         let buffer: *const f32 = sphere_buffers[sphere_buffers.len() - 1].as_ptr();
                         let geometry = (api.new_geometry)(device.handle, embree::SPHERE_POINT);
@@ -281,7 +281,7 @@ impl Geometry {
                     Shape::Mesh(mesh) => {
                         mesh.positions[..mesh.positions.len() - 1].iter().for_each(|p| include(*p))
                     }
-                    Shape::Sphere { center, radius } => {
+                    Shape::Sphere { center, radius, .. } => {
                         for corner in 0..8u32 {
                             let sign = |bit: u32| if corner >> bit & 1 == 1 { *radius } else { -radius };
                             include(*center + Vec3::new(sign(0), sign(1), sign(2)));
@@ -386,17 +386,17 @@ impl Geometry {
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         match &self.objects[hit.object as usize] {
             Placed::Baked(Shape::Mesh(mesh)) => mesh_point(mesh, self.reaches[hit.object as usize], hit),
-            Placed::Baked(Shape::Sphere { center, radius }) => {
-                sphere_point(*center, *radius, ray.origin + ray.direction * hit.distance)
+            Placed::Baked(Shape::Sphere { center, radius, turn }) => {
+                sphere_point(*center, *radius, *turn, ray.origin + ray.direction * hit.distance)
             }
             Placed::Instance { shape, motion } => {
                 let to_world = motion.at(ray.time);
                 let local = match &self.shapes[*shape] {
                     Shape::Mesh(mesh) => mesh_point(mesh, self.reaches[hit.object as usize], hit),
-                    Shape::Sphere { center, radius } => {
+                    Shape::Sphere { center, radius, turn } => {
                         let from_world = to_world.inverse();
                         let p = from_world.transform_point3(ray.origin + ray.direction * hit.distance);
-                        sphere_point(*center, *radius, p)
+                        sphere_point(*center, *radius, *turn, p)
                     }
                 };
                 instance_point(&local, &to_world)
@@ -420,11 +420,11 @@ impl Geometry {
                 let uvs = uvs.map_or([Vec2::ZERO, Vec2::X, Vec2::Y], |uvs| face.map(|i| uvs[i as usize]));
                 along_texture(face.map(|i| mesh.positions[i as usize]), uvs)
             }
-            Shape::Sphere { center, .. } => {
+            Shape::Sphere { center, turn, .. } => {
                 let point = to_world.inverse().transform_point3(ray.origin + ray.direction * hit.distance);
                 // Along the parallel, and down the meridian.
-                let round = Vec3::Z.cross(point - *center);
-                let down = round.normalize_or_zero().cross(point - *center);
+                let round = (*turn * Vec3::Z).cross(point - *center) * turn.determinant().signum();
+                let down = round.normalize_or_zero().cross(point - *center) * turn.determinant().signum();
                 [round * TAU, down * PI]
             }
         };
@@ -455,7 +455,7 @@ impl Geometry {
     #[must_use]
     pub fn sphere(&self, object: usize) -> Option<(Vec3, f32)> {
         match &self.objects[object] {
-            Placed::Baked(Shape::Sphere { center, radius }) => Some((*center, *radius)),
+            Placed::Baked(Shape::Sphere { center, radius, .. }) => Some((*center, *radius)),
             _ => None,
         }
     }
@@ -465,7 +465,7 @@ impl Geometry {
     pub fn world_mesh(&self, object: usize, time: f32) -> Mesh {
         let mesh = match self.shape(object) {
             Shape::Mesh(mesh) => mesh.clone(),
-            Shape::Sphere { center, radius } => facets_of_sphere(*center, *radius),
+            Shape::Sphere { center, radius, turn } => facets_of_sphere(*center, *radius, *turn),
         };
         let Placed::Instance { motion, .. } = &self.objects[object] else { return mesh };
         match bake(&Shape::Mesh(mesh), &motion.at(time)) {
@@ -494,7 +494,7 @@ impl Geometry {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::vec3;
+    use glam::{Mat3, vec3};
 
     fn square(z: f32) -> Shape {
         Shape::Mesh(Mesh {
@@ -516,7 +516,8 @@ mod tests {
     #[test]
     fn meshes_spheres_and_instances_are_met() {
         crate::embree::load_from_environment().unwrap();
-        let shapes = vec![square(0.0), Shape::Sphere { center: Vec3::ZERO, radius: 2.0 }];
+        let shapes =
+            vec![square(0.0), Shape::Sphere { center: Vec3::ZERO, radius: 2.0, turn: Mat3::IDENTITY }];
         // The square twice, so that it is an instance; the sphere far off.
         let placements = vec![placed(0, 0.0), placed(0, 3.0), placed(1, 10.0)];
         let geometry = Geometry::new(shapes, placements, 1).unwrap();
@@ -542,7 +543,8 @@ mod tests {
         mesh.uvs = Some(mesh.positions.iter().map(|p| Vec2::new(p.y, -0.5 * p.x)).collect());
         let mirror = Affine3A::from_scale(vec3(1.0, -3.0, 1.0));
         let mirrored = Affine3A::from_translation(vec3(5.0, 0.0, 0.0)) * mirror;
-        let ball = Shape::Sphere { center: vec3(10.0, 0.0, 0.0), radius: 2.0 };
+        let turn = Mat3::from_rotation_y(0.4) * Mat3::from_diagonal(vec3(1.0, -1.0, 1.0));
+        let ball = Shape::Sphere { center: vec3(10.0, 0.0, 0.0), radius: 2.0, turn };
         let placements = vec![
             placed(0, 0.0),
             Placement { shape: 0, motion: Motion::new(vec![mirrored]).unwrap() },

@@ -1,7 +1,7 @@
 //! Shapes, in their own coordinates and placed in the world.
 
 use crate::Motion;
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{Affine3A, Mat3, Vec2, Vec3};
 
 /// A triangle mesh.
 #[derive(Clone, Debug, Default)]
@@ -27,6 +27,8 @@ pub enum Shape {
         center: Vec3,
         /// Radius.
         radius: f32,
+        /// How it is turned: from the axes of its texture to those in which it stands.
+        turn: Mat3,
     },
 }
 
@@ -42,7 +44,7 @@ pub struct Placement {
 /// A sentence on what is wrong with a shape, if anything is.
 pub(crate) fn check_shape(shape: &Shape) -> Result<(), String> {
     match shape {
-        Shape::Sphere { center, radius } => {
+        Shape::Sphere { center, radius, .. } => {
             if center.is_finite() && radius.is_finite() && *radius > 0.0 {
                 Ok(())
             } else {
@@ -77,7 +79,7 @@ pub(crate) fn check_shape(shape: &Shape) -> Result<(), String> {
 /// A shape moved into the world.
 pub(crate) fn bake(shape: &Shape, transform: &Affine3A) -> Result<Shape, String> {
     match shape {
-        Shape::Sphere { center, radius } => {
+        Shape::Sphere { center, radius, turn } => {
             let m = transform.matrix3;
             let scales = [m.x_axis.length(), m.y_axis.length(), m.z_axis.length()];
             let largest = scales[0].max(scales[1]).max(scales[2]);
@@ -91,7 +93,9 @@ pub(crate) fn bake(shape: &Shape, transform: &Affine3A) -> Result<Shape, String>
             {
                 return Err("a sphere cannot be scaled unevenly; use a mesh".into());
             }
-            Ok(Shape::Sphere { center: transform.transform_point3(*center), radius: radius * largest })
+            // Whether mirrored or turned, evenly scaled axes stay at right angles.
+            let turn = Mat3::from(m) * (1.0 / largest) * *turn;
+            Ok(Shape::Sphere { center: transform.transform_point3(*center), radius: radius * largest, turn })
         }
         Shape::Mesh(mesh) if *transform == Affine3A::IDENTITY => Ok(Shape::Mesh(mesh.clone())),
         Shape::Mesh(mesh) => {
@@ -126,7 +130,7 @@ pub(crate) fn reach(shape: &Shape) -> f32 {
 }
 
 /// A sphere as facets: 48 parallels and 96 meridians, so that a chord strays from it by 0.05 % of the radius.
-pub(crate) fn facets_of_sphere(center: Vec3, radius: f32) -> Mesh {
+pub(crate) fn facets_of_sphere(center: Vec3, radius: f32, turn: Mat3) -> Mesh {
     const ROWS: u32 = 48;
     const COLUMNS: u32 = 96;
     let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
@@ -136,7 +140,7 @@ pub(crate) fn facets_of_sphere(center: Vec3, radius: f32) -> Mesh {
         for column in 0..=COLUMNS {
             let u = column as f32 / COLUMNS as f32;
             let (s, c) = (std::f32::consts::TAU * (column % COLUMNS) as f32 / COLUMNS as f32).sin_cos();
-            let normal = Vec3::new(sin * c, sin * s, cos);
+            let normal = turn * Vec3::new(sin * c, sin * s, cos);
             positions.push(center + normal * radius);
             normals.push(normal);
             uvs.push(Vec2::new(u, row as f32 / ROWS as f32));
@@ -153,6 +157,9 @@ pub(crate) fn facets_of_sphere(center: Vec3, radius: f32) -> Mesh {
                 indices.push([a, c, d]);
             }
         }
+    }
+    if turn.determinant() < 0.0 {
+        indices.iter_mut().for_each(|face: &mut [u32; 3]| face.swap(1, 2));
     }
     Mesh { positions, indices, normals: Some(normals), uvs: Some(uvs) }
 }

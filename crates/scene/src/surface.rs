@@ -1,7 +1,7 @@
 //! Rays, where they meet surfaces, and how exactly the point is known.
 
 use crate::shape::Mesh;
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{Affine3A, Mat3, Vec2, Vec3};
 
 /// A ray: a half-line at a moment.
 #[derive(Clone, Copy, Debug)]
@@ -98,13 +98,14 @@ pub(crate) fn mesh_point(mesh: &Mesh, reach: f32, hit: &Hit) -> SurfacePoint {
     SurfacePoint { position, error, geometric_normal, normal, uv }
 }
 
-pub(crate) fn sphere_point(center: Vec3, radius: f32, near: Vec3) -> SurfacePoint {
+pub(crate) fn sphere_point(center: Vec3, radius: f32, turn: Mat3, near: Vec3) -> SurfacePoint {
     let normal = (near - center).normalize_or(Vec3::Z);
+    let own = turn.transpose() * normal;
     let position = center + normal * radius;
     let error = (center.abs().max_element() + radius) * gamma(24);
     let uv = Vec2::new(
-        (normal.y.atan2(normal.x) * std::f32::consts::FRAC_1_PI * 0.5).rem_euclid(1.0),
-        normal.z.clamp(-1.0, 1.0).acos() * std::f32::consts::FRAC_1_PI,
+        (own.y.atan2(own.x) * std::f32::consts::FRAC_1_PI * 0.5).rem_euclid(1.0),
+        own.z.clamp(-1.0, 1.0).acos() * std::f32::consts::FRAC_1_PI,
     );
     SurfacePoint { position, error, geometric_normal: normal, normal, uv }
 }
