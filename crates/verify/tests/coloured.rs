@@ -43,42 +43,48 @@ fn same<M: IlluminationModel<N> + Prepare>(illumination: Illumination, basis: &d
         let brightness = material.brightness(range) as f32;
         M::prepare(&material, illumination, brightness, basis, 0..N, range)
     };
-    let site = Site::<N>::new(1.0, 1.0);
     for (own, other) in coloured_as(colour).iter().zip(&coloured_as(Curve::constant(0.35))) {
         let (own, taken) = (prepare(own), prepare(other).coloured(&lanes, 0.8));
-        let close = |a: Lanes<N>, b: Lanes<N>, what: &str| {
-            for (a, b) in a.0.iter().zip(&b.0) {
-                assert!((a - b).abs() <= 2e-5 * a.abs().max(0.01), "{illumination} {what}: {a} {b}");
-            }
-        };
-        for v in [[0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [0.98, 0.0, 0.199]] {
-            let at = site.incidence(v);
-            let (a, b) = (own.ambient(&at), taken.ambient(&at));
-            close(a.diffuse, b.diffuse, "ambient");
-            close(a.specular, b.specular, "ambient of the surface");
-            close(own.see_through(&at), taken.see_through(&at), "see_through");
-            for l in [Vec3::Z, Vec3::new(-0.6, 0.0, 0.8), Vec3::new(0.0, 0.9, 0.435_89)] {
-                close(own.eval(&at, l), taken.eval(&at, l), "eval");
-                let (a, b) = (own.components(&at, l), taken.components(&at, l));
-                close(a.diffuse, b.diffuse, "diffuse");
-                close(a.specular, b.specular, "specular");
-                assert!((own.pdf(&at, l) - taken.pdf(&at, l)).abs() < 1e-4, "{illumination} pdf");
-            }
-            let [black, white] = [0.0, 1.0].map(|c| taken.coloured(&Lanes::splat(c), c));
-            let share = taken.share_of_white(&at, &lanes);
-            let l = Vec3::new(-0.6, 0.0, 0.8);
-            let ends = [black.eval(&at, l), white.eval(&at, l)];
-            close(own.eval(&at, l), ends[0] + share * (ends[1] + ends[0] * -1.0), "share");
-            for i in 0..40 {
-                let u = [0.618, 0.755, 0.857].map(|step: f32| (step * i as f32).fract());
-                match (own.sample(&at, u, None), taken.sample(&at, u, None)) {
-                    (Some(a), Some(b)) => {
-                        assert!((a.direction - b.direction).length() < 1e-3, "{illumination}");
-                        close(a.weight, b.weight, "weight");
-                    }
-                    (None, None) => {}
-                    _ => panic!("{illumination}: one of two is no sample"),
+        let [black, white] = [0.0, 1.0].map(|c| taken.coloured(&Lanes::splat(c), c));
+        compare(illumination, [&own, &taken, &black, &white], &lanes);
+    }
+}
+
+/// Each method is called through a table, so that it is compiled once and not wherever it is called.
+fn compare(illumination: Illumination, models: [&dyn IlluminationModel<N>; 4], lanes: &Lanes<N>) {
+    let [own, taken, black, white] = models;
+    let site = Site::<N>::new(1.0, 1.0);
+    let close = |a: Lanes<N>, b: Lanes<N>, what: &str| {
+        for (a, b) in a.0.iter().zip(&b.0) {
+            assert!((a - b).abs() <= 2e-5 * a.abs().max(0.01), "{illumination} {what}: {a} {b}");
+        }
+    };
+    for v in [[0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [0.98, 0.0, 0.199]] {
+        let at = site.incidence(v);
+        let (a, b) = (own.ambient(&at), taken.ambient(&at));
+        close(a.diffuse, b.diffuse, "ambient");
+        close(a.specular, b.specular, "ambient of the surface");
+        close(own.see_through(&at), taken.see_through(&at), "see_through");
+        for l in [Vec3::Z, Vec3::new(-0.6, 0.0, 0.8), Vec3::new(0.0, 0.9, 0.435_89)] {
+            close(own.eval(&at, l), taken.eval(&at, l), "eval");
+            let (a, b) = (own.components(&at, l), taken.components(&at, l));
+            close(a.diffuse, b.diffuse, "diffuse");
+            close(a.specular, b.specular, "specular");
+            assert!((own.pdf(&at, l) - taken.pdf(&at, l)).abs() < 1e-4, "{illumination} pdf");
+        }
+        let share = taken.share_of_white(&at, lanes);
+        let l = Vec3::new(-0.6, 0.0, 0.8);
+        let ends = [black.eval(&at, l), white.eval(&at, l)];
+        close(own.eval(&at, l), ends[0] + share * (ends[1] + ends[0] * -1.0), "share");
+        for i in 0..40 {
+            let u = [0.618, 0.755, 0.857].map(|step: f32| (step * i as f32).fract());
+            match (own.sample(&at, u, None), taken.sample(&at, u, None)) {
+                (Some(a), Some(b)) => {
+                    assert!((a.direction - b.direction).length() < 1e-3, "{illumination}");
+                    close(a.weight, b.weight, "weight");
                 }
+                (None, None) => {}
+                _ => panic!("{illumination}: one of two is no sample"),
             }
         }
     }
