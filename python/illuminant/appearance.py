@@ -25,6 +25,9 @@ from illuminant.core import core
 from illuminant.errors import DataError
 
 if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
     from illuminant.spectrum import Spectrum
 
 __all__ = [
@@ -39,6 +42,7 @@ __all__ = [
     "energies",
     "preset",
     "propose",
+    "romney_highlight",
     "source_curve",
 ]
 
@@ -253,6 +257,40 @@ def preset(kind: str, name: str = "", finish: str = "") -> dict[str, Any]:
         "half_angle_deg": round(math.degrees(proposal.beta), 4),
     }
     return table | {"coefficients": {"all": told}}
+
+
+def romney_highlight(
+    cosine: npt.ArrayLike, distance: npt.ArrayLike, powers: tuple[float, float] = (2.0, 4.0)
+) -> npt.NDArray[np.float64]:
+    """(N·L)^p/r^q: the highlight of a light at the eye before there were models of highlights.
+
+    A power of the cosine looks like a highlight, because the mirror direction leaves the view as the normal does; 2
+    and 4 gave the best images (Romney 1969; book 4.2.2). In a scene these are the `terminator` p of a material's
+    coefficients, a point light at the eye, whose own light falls as 1/r², and an atmosphere of kind `distance` with
+    the power q − 2.
+
+    Args:
+        cosine: N·L, the same as N·V; below 0 there is no light.
+        distance: r from the surface to the eye, above 0.
+        powers: p and q.
+
+    Returns:
+        What intensity and reflectance are multiplied by, in the shape of both arguments broadcast.
+
+    Raises:
+        DataError: a distance is not above 0.
+
+    Example:
+        >>> float(romney_highlight(0.5, 2.0))
+        0.015625
+    """
+    import numpy as np
+
+    r = np.asarray(distance, dtype=float)
+    if not (r > 0).all():
+        raise DataError("distance: must be above 0")
+    p, q = powers
+    return np.asarray(np.maximum(np.asarray(cosine, dtype=float), 0.0) ** p / r**q)
 
 
 def advise(chosen: Proposal) -> list[str]:

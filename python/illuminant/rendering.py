@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import os
 import time as clock
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -429,7 +429,10 @@ def render(
     ambient: float | None = None,
     interpolation: str | None = None,
     shading: str | None = None,
-    shadows: bool | None = None,
+    shadows: str | None = None,
+    antialiasing: str | None = None,
+    infinite: str | Sequence[str] | None = None,
+    subdivide: float | None = None,
     progress: OnProgress | None = None,
     on_partial: Callable[[Image], object] | None = None,
 ) -> Image:
@@ -459,7 +462,11 @@ def render(
         ambient: ambient light of scanline techniques; default 0.15 of what lamps make of a white diffuser.
         interpolation: where scanline techniques interpolate; default `object`, or `screen`.
         shading: how `phong` finds the illumination at a pixel; default `full`, or `duff` or `bishop-weimer`.
-        shadows: whether scanline techniques find shadows; default False.
+        shadows: how scanline techniques find shadows; default `none`, or `rays`, or `maps:N` of N texels.
+        antialiasing: how they smooth edges; default `supersampling`, or `coverage`: 32 places a sample, and each
+            polygon shaded once in a pixel, so that one sample does.
+        infinite: what they hold at infinity: `eye`, `lights` or both; default neither.
+        subdivide: area in pixels above which they subdivide polygons; default never.
         progress: called about ten times a second with a `Progress`; returning False ends the render with what
             is done.
         on_partial: called after each range with the image so far.
@@ -498,6 +505,9 @@ def render(
         interpolation=interpolation,
         shading=shading,
         shadows=shadows,
+        antialiasing=antialiasing,
+        infinite=infinite,
+        subdivide=subdivide,
     )
     _log_warnings(job)
     for _ in job.passes(progress):

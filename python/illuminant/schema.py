@@ -140,7 +140,20 @@ class Render(Table):
         '"full"',
         None,
     )
-    shadows: bool | None = key("whether scanline techniques find shadows", "true", None)
+    shadows: Annotated[str, Field(pattern=r"^(none|rays|maps(:\d{2,5})?)$")] | None = key(
+        "how scanline techniques find shadows: not at all, with rays, or in maps of so many texels",
+        '"maps:1024"',
+        None,
+    )
+    antialiasing: Literal["supersampling", "coverage"] | None = key(
+        "how scanline techniques smooth edges", '"supersampling"', None
+    )
+    infinite: list[Literal["eye", "lights"]] | None = key(
+        "what scanline techniques hold at infinity", '["eye", "lights"]', None
+    )
+    subdivide: Annotated[float, Field(ge=1)] | None = key(
+        "area in pixels above which scanline techniques subdivide polygons", "4.0", None
+    )
     exposure: Positive | None = key("factor from luminance in cd/m² to the display's 0 to 1", "0.01", None)
     filter: Filter | None = key("reconstruction filter", '{ kind = "gaussian", radius = 1.5 }', None)
 

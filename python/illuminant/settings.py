@@ -22,7 +22,17 @@ from typing import Any
 
 from illuminant.errors import UsageError
 
-__all__ = ["LAYERS", "Settings", "duration", "filter_of", "fraction", "pixel", "resolve", "size_of"]
+__all__ = [
+    "LAYERS",
+    "Settings",
+    "duration",
+    "filter_of",
+    "fraction",
+    "pixel",
+    "resolve",
+    "shadows_of",
+    "size_of",
+]
 
 LAYERS = ("depth", "normal", "albedo", "samples", "terms")
 """Auxiliary images that can be asked for by name."""
@@ -32,6 +42,12 @@ SCANLINE = ("constant", "gouraud", "phong")
 
 INTERPOLATIONS = ("object", "screen")
 SHADINGS = ("full", "duff", "bishop-weimer")
+
+ANTIALIASINGS = ("supersampling", "coverage")
+INFINITE = ("eye", "lights")
+
+SHADOW_MAP = 1024
+"""Texels across a shadow map of which no size is stated."""
 
 FILTERS = ("gaussian", "box", "tent")
 
@@ -63,7 +79,10 @@ class Settings:
             diffuser in the middle of the scene.
         interpolation: where they interpolate: `object` or `screen`.
         shading: how `phong` finds the illumination at a pixel: `full`, `duff` or `bishop-weimer`.
-        shadows: whether they look for what stands between a surface and a lamp.
+        shadows: how they look for what stands between a surface and a lamp: `none`, `rays`, or `maps:N` of N texels.
+        antialiasing: how they smooth edges: `supersampling` or `coverage`.
+        infinite: what they hold at infinity: `eye`, `lights`, both or nothing.
+        subdivide: area in pixels above which they subdivide polygons; None leaves them whole.
     """
 
     technique: str = "path"
@@ -83,7 +102,10 @@ class Settings:
     ambient: float = 0.15
     interpolation: str = "object"
     shading: str = "full"
-    shadows: bool = False
+    shadows: str = "none"
+    antialiasing: str = "supersampling"
+    infinite: tuple[str, ...] = ()
+    subdivide: float | None = None
 
     @property
     def replicates(self) -> int:
@@ -96,6 +118,7 @@ class Settings:
         layers = ["emission", *(name for name in self.layers if name != "samples")]
         layers += ["spectra"] * self.keep_spectra + ["lamps"] * self.lamps
         kind, radius = self.filter
+        shadows, _, texels = self.shadows.partition(":")
         return json.dumps(
             {
                 "technique": self.technique,
@@ -110,7 +133,10 @@ class Settings:
                 "ambient": self.ambient,
                 "interpolation": self.interpolation,
                 "shading": self.shading,
-                "shadows": self.shadows,
+                "shadows": {"maps": int(texels)} if texels else shadows,
+                "antialiasing": self.antialiasing,
+                "infinite": {name: name in self.infinite for name in INFINITE},
+                "subdivide": self.subdivide,
             }
         )
 
@@ -130,8 +156,15 @@ class Settings:
         }
 
     def _scanline(self) -> dict[str, Any]:
-        given = {"ambient": self.ambient, "interpolation": self.interpolation, "shadows": self.shadows}
-        return given | ({"shading": self.shading} if self.technique == "phong" else {})
+        return {
+            "ambient": self.ambient,
+            "interpolation": self.interpolation,
+            "shadows": self.shadows,
+            "antialiasing": self.antialiasing,
+            **({"infinite": ",".join(self.infinite)} if self.infinite else {}),
+            **({} if self.subdivide is None else {"subdivide": self.subdivide}),
+            **({"shading": self.shading} if self.technique == "phong" else {}),
+        }
 
 
 def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings:
@@ -161,16 +194,30 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         chosen["time"] = duration(chosen["time"])
     if "error" in chosen:
         chosen["error"] = fraction(chosen["error"])
-    if chosen.get("interpolation", "object") not in INTERPOLATIONS:
-        raise UsageError(f"--interpolation {chosen['interpolation']}: expected object or screen.")
-    if chosen.get("shading", "full") not in SHADINGS:
-        raise UsageError(f"--shading {chosen['shading']}: expected full, duff or bishop-weimer.")
+    for name, known in (
+        ("interpolation", INTERPOLATIONS),
+        ("shading", SHADINGS),
+        ("antialiasing", ANTIALIASINGS),
+    ):
+        if chosen.get(name, known[0]) not in known:
+            *others, last = known
+            raise UsageError(f"--{name} {chosen[name]}: expected {', '.join(others)} or {last}.")
+    if "shadows" in chosen:
+        chosen["shadows"] = shadows_of(chosen["shadows"])
+    if "infinite" in chosen:
+        chosen["infinite"] = _names("infinite", chosen["infinite"], INFINITE)
+    if "subdivide" in chosen and not (
+        isinstance(chosen["subdivide"], (int, float)) and 1 <= chosen["subdivide"] < math.inf
+    ):
+        raise UsageError(
+            f"--subdivide {chosen['subdivide']}: expected an area of 1 pixel or more, such as 4."
+        )
     if "ambient" in chosen and not (
         isinstance(chosen["ambient"], (int, float)) and 0 <= chosen["ambient"] <= 10
     ):
         raise UsageError(f"--ambient {chosen['ambient']}: expected a fraction from 0 to 10, such as 0.15.")
     if "layers" in chosen:
-        chosen["layers"] = _layers(chosen["layers"])
+        chosen["layers"] = _names("layers", chosen["layers"], LAYERS)
     for name, least, most in (
         ("samples", 1, 2**32 - 1),
         ("depth", 1, 2**16 - 1),
@@ -295,10 +342,33 @@ def pixel(value: str | Sequence[int]) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
-def _layers(value: str | Sequence[str]) -> tuple[str, ...]:
+def shadows_of(value: str) -> str:
+    """How shadows are found, complete: `none`, `rays`, or `maps` with its texels.
+
+    Raises:
+        UsageError: it is none of them, or the maps are not from 64 to 16384 texels wide.
+
+    Example:
+        >>> shadows_of("maps"), shadows_of("maps:512"), shadows_of("rays")
+        ('maps:1024', 'maps:512', 'rays')
+    """
+    kind, _, texels = str(value).partition(":")
+    if str(value) in ("none", "rays"):
+        return kind
+    size = texels or str(SHADOW_MAP)
+    if kind != "maps" or not re.fullmatch(r"\d{2,5}", size) or not 64 <= int(size) <= 16384:
+        raise UsageError(
+            f"--shadows {value}: expected none, rays, or maps with their width in texels if you like, such as "
+            "maps:1024."
+        )
+    return f"maps:{int(size)}"
+
+
+def _names(option: str, value: str | Sequence[str], known: tuple[str, ...]) -> tuple[str, ...]:
     names = value.split(",") if isinstance(value, str) else list(value)
     names = [name.strip() for name in names if name.strip()]
+    what = {"layers": "layer"}.get(option, "choice")
     for name in names:
-        if name not in LAYERS:
-            raise UsageError(f"--layers {name}: there is no such layer; known are {', '.join(LAYERS)}.")
+        if name not in known:
+            raise UsageError(f"--{option} {name}: there is no such {what}; known are {', '.join(known)}.")
     return tuple(dict.fromkeys(names))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import illuminant
+from illuminant.appearance import romney_highlight
 from illuminant.errors import SceneError
 from illuminant.scene import Scene
 
@@ -87,3 +88,51 @@ def test_surroundings_are_hidden_by_fog_and_left_by_distance():
 def test_mistakes_are_named(atmosphere, message):
     with pytest.raises(SceneError, match=message):
         scene(atmosphere)
+
+
+@pytest.mark.parametrize(("cosines", "distances"), [(2.0, 4.0), (1.0, 2.0), (3.0, 6.0)])
+def test_romneys_highlight(cosines, distances):
+    """A power of N·L over one of the distance, with the light at the eye (Romney 1969; book 4.2.2)."""
+    made = Scene.build(
+        camera={"eye": [0, 0, 0], "target": [0, 0, -1], "size": [41, 41], "field_of_view": 60.0},
+        objects={"ball": {"sphere": {"center": [0.2, 0, -3], "radius": 1.2}, "material": "grey"}},
+        materials={
+            "grey": {
+                "kind": "diffuse",
+                "reflectance": 0.5,
+                "coefficients": {"bouknight": {"terminator": cosines}},
+            }
+        },
+        # The lamp's own light falls as 1/r².
+        lights={
+            "lamp": {
+                "kind": "point",
+                "position": [0, 0, 0],
+                "spectrum": "D65",
+                "intensity_cd": 1000.0 * np.pi,
+            }
+        },
+        **(
+            {"atmosphere": {"kind": "distance", "power": distances - 2.0, "unit": 1.0}}
+            if distances > 2
+            else {}
+        ),
+    )
+    options = {"technique": "phong", "illumination": "bouknight", "sampling": "uniform:8", "samples": 1}
+    image = illuminant.render(made, ambient=0.0, filter=("box", 1e-6), layers="depth", **options)
+    found = np.asarray(image.xyz, float)[..., 1]
+    step = 2 * np.tan(np.radians(30.0)) / 41
+    x, y = np.meshgrid((np.arange(41) - 20) * step, (20 - np.arange(41)) * step)
+    view = np.stack([x, y, -np.ones_like(x)], -1)
+    view /= np.linalg.norm(view, axis=-1, keepdims=True)
+    center = np.array([0.2, 0.0, -3.0])
+    along = view @ center
+    root = along**2 - center @ center + 1.2**2
+    hit = root > 0.1
+    r = along - np.sqrt(np.where(hit, root, 0))
+    normal = (view * r[..., None] - center) / 1.2
+    cos = -(normal * view).sum(-1)
+    expected = 0.5 * 1000.0 * romney_highlight(cos, r, (cosines, distances))
+    assert hit.sum() > 100
+    # The facets of the ball lie a little inside it.
+    np.testing.assert_allclose(found[hit], expected[hit], rtol=0.02, atol=0.005 * expected.max())

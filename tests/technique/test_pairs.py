@@ -118,7 +118,7 @@ def test_what_has_no_meaning_is_refused(scene):
         ({"illumination": "cook-torrance"}, "its highlight is no power of a cosine"),
         ({"illumination": "hall"}, "mirror direction at every pixel"),
         ({"illumination": "whitted"}, "mirror direction at every pixel"),
-        ({"shadows": True}, "finds no shadows"),
+        ({"shadows": "rays"}, "finds no shadows"),
         ({}, 'one sees through "glass"'),
         ({"shading": "fast"}, "expected full, duff or bishop-weimer"),
     ],

@@ -6,7 +6,7 @@
 
 use crate::Motion;
 use crate::embree::{self, Device, EmbreeError, RtcArguments, RtcRay, RtcRayHit};
-use crate::shape::{Mesh, Placement, Shape, bake, check_shape, facets_of_sphere, reach};
+use crate::shape::{Mesh, Placement, Shape, bake, check_shape, FACET_DEPTH, facets_of_sphere, reach};
 use crate::surface::{Hit, Ray, SurfacePoint, along_texture, instance_point, mesh_point, sphere_point};
 use crate::ties::{TieContext, break_ties};
 use glam::{Affine3A, Vec2, Vec3};
@@ -476,6 +476,20 @@ impl Geometry {
     }
 
     /// The shape of an object, in the world if it is baked, else in its own coordinates.
+    /// How far below the surface of an object the triangles of [`Self::world_mesh`] lie at most: 0 but for spheres.
+    #[must_use]
+    pub fn facet_depth(&self, object: usize, time: f32) -> f32 {
+        let Shape::Sphere { radius, .. } = self.shape(object) else { return 0.0 };
+        let scale = match &self.objects[object] {
+            Placed::Baked(_) => 1.0,
+            Placed::Instance { motion, .. } => {
+                let m = motion.at(time).matrix3;
+                [m.x_axis, m.y_axis, m.z_axis].iter().map(|axis| axis.length()).fold(0.0, f32::max)
+            }
+        };
+        radius * scale * FACET_DEPTH
+    }
+
     fn shape(&self, object: usize) -> &Shape {
         match &self.objects[object] {
             Placed::Baked(shape) => shape,

@@ -176,6 +176,22 @@ impl SurfaceLamp {
         Self { object, two_sided, area, distribution: None, center, radius: farthest, outline }
     }
 
+    /// A point of the surface that does not depend on where it is seen from: uniform over the area of what is flat, the centre of a
+    /// sphere, and the middle of one of the triangles of a mesh. A moving lamp is taken where it is as its motion begins.
+    #[must_use]
+    pub fn place(&self, geometry: &Geometry, u: [f32; 2]) -> Vec3 {
+        match &self.outline {
+            Outline::Rectangle { corner, x, y, size, .. } => {
+                *corner + *x * (u[0] * size[0]) + *y * (u[1] * size[1])
+            }
+            Outline::Sphere { center, .. } => *center,
+            Outline::Triangles { sums, .. } => {
+                let i = sums.partition_point(|&s| s <= u[0]).min(sums.len() - 1);
+                geometry.triangle(self.object, i, 0.0).map_or(self.center, |c| c.iter().sum::<Vec3>() / 3.0)
+            }
+        }
+    }
+
     /// About the solid angle under which a point sees the lamp, as if it faced the point; 0 behind a flat one.
     #[inline]
     fn expected_solid_angle(&self, from: Vec3) -> f32 {

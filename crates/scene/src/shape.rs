@@ -129,6 +129,9 @@ pub(crate) fn reach(shape: &Shape) -> f32 {
     mesh.indices.iter().map(of_face).fold(0.0, f32::max)
 }
 
+/// How far below a unit sphere the middle of a facet lies at most: its corners are 2.65° around it.
+pub(crate) const FACET_DEPTH: f32 = 1.1e-3;
+
 /// A sphere as facets: 48 parallels and 96 meridians, so that a chord strays from it by 0.05 % of the radius.
 pub(crate) fn facets_of_sphere(center: Vec3, radius: f32, turn: Mat3) -> Mesh {
     const ROWS: u32 = 48;

@@ -25,4 +25,4 @@ pub use render::{Dropped, Progress, Render, RenderError, Statistics};
 pub use scanline::edges;
 pub use scene_products::{products, spectral_error};
 pub use sequence::Sequence;
-pub use settings::{Interpolation, Layer, Settings, Shading, Technique};
+pub use settings::{Antialiasing, Infinite, Interpolation, Layer, Settings, Shading, Shadows, Technique};

@@ -1,6 +1,6 @@
 //! Which technique goes with which illumination model (book table 4.1, section 4.7).
 
-use crate::settings::{Settings, Shading, Technique};
+use crate::settings::{Settings, Shading, Shadows, Technique};
 use illuminant_illumination::{CoefficientCurves, Illumination, Surface};
 use illuminant_optics::distribution::Distribution;
 use illuminant_scene::Scene;
@@ -99,7 +99,7 @@ pub fn check_shading(
             ));
         }
     }
-    if settings.shadows {
+    if settings.shadows != Shadows::None {
         return Err(format!("shading {shading} finds no shadows: it looks at lamps once a polygon"));
     }
     for object in &scene.objects {

@@ -8,7 +8,7 @@ use crate::passes::{Job, Light, Replay, TileCounts, TileRenderer, group_lamps, r
 use crate::path::Query;
 use crate::scanline::BAND;
 use crate::scene_products::{products, spectral_error};
-use crate::settings::{Layer, Settings, Technique};
+use crate::settings::{Layer, Settings, Shadows, Technique};
 use illuminant_illumination::Illumination;
 use illuminant_sampling::{Basis, SamplingError, SpectralError, SpectralSampling};
 use illuminant_scene::Scene;
@@ -129,6 +129,12 @@ impl Render {
                 "ambient must lie between 0 and 10, not {}",
                 settings.ambient
             )));
+        }
+        if settings.subdivide.is_some_and(|area| !(area >= 1.0 && area.is_finite())) {
+            return Err(RenderError::Setting("subdivide must be an area of 1 pixel or more".into()));
+        }
+        if matches!(settings.shadows, Shadows::Maps(size) if !(64..=16384).contains(&size)) {
+            return Err(RenderError::Setting("shadow maps must be 64 to 16384 texels wide".into()));
         }
         if settings.depth == Some(0) {
             return Err(RenderError::Setting("depth must be 1 or more".into()));

@@ -86,6 +86,40 @@ impl fmt::Display for Shading {
     }
 }
 
+/// How scanline techniques find what stands between a surface and a lamp.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Shadows {
+    /// Not at all.
+    #[default]
+    None,
+    /// With a ray to each place on a lamp.
+    Rays,
+    /// In images of the depth that lamps see (Williams 1978), so many texels wide.
+    Maps(u32),
+}
+
+/// How scanline techniques smooth edges.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Antialiasing {
+    /// Every sample finds what it sees and shades it.
+    #[default]
+    Supersampling,
+    /// 32 places a sample find how much of a pixel each polygon covers, which is shaded once (Carpenter 1984).
+    Coverage,
+}
+
+/// What scanline techniques hold at infinity, so that directions to it are the same at all points (book 4.2.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Infinite {
+    /// The eye, for the model; the perspective stays.
+    pub eye: bool,
+    /// The lamps, whose light is everywhere as in the middle of the scene.
+    pub lights: bool,
+}
+
 /// A layer of the film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -141,8 +175,14 @@ pub struct Settings {
     pub interpolation: Interpolation,
     /// How `phong` finds the illumination at a pixel.
     pub shading: Shading,
-    /// Whether scanline techniques look for what stands between a surface and a lamp.
-    pub shadows: bool,
+    /// How scanline techniques look for what stands between a surface and a lamp.
+    pub shadows: Shadows,
+    /// How they smooth edges.
+    pub antialiasing: Antialiasing,
+    /// What they hold at infinity.
+    pub infinite: Infinite,
+    /// The area on the screen, in pixels, above which they subdivide polygons; none leaves them whole.
+    pub subdivide: Option<f64>,
 }
 
 impl Default for Settings {
@@ -161,7 +201,10 @@ impl Default for Settings {
             ambient: 0.15,
             interpolation: Interpolation::default(),
             shading: Shading::default(),
-            shadows: false,
+            shadows: Shadows::default(),
+            antialiasing: Antialiasing::default(),
+            infinite: Infinite::default(),
+            subdivide: None,
         }
     }
 }

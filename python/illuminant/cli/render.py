@@ -89,7 +89,39 @@ def render(
             help="How phong finds the illumination at a pixel: full, duff or bishop-weimer (full).",
         ),
     ] = None,
-    shadows: Annotated[bool, typer.Option("--shadows", help="Let scanline techniques find shadows.")] = False,
+    shadows: Annotated[
+        str | None,
+        typer.Option(
+            "--shadows",
+            metavar="HOW",
+            help="How scanline techniques find shadows: none, rays, maps or maps:TEXELS (none).",
+        ),
+    ] = None,
+    antialiasing: Annotated[
+        str | None,
+        typer.Option(
+            "--antialiasing",
+            metavar="HOW",
+            help="How scanline techniques smooth edges: supersampling, or coverage at 32 places a sample "
+            "(supersampling).",
+        ),
+    ] = None,
+    infinite: Annotated[
+        str | None,
+        typer.Option(
+            "--infinite",
+            metavar="A,B",
+            help="What scanline techniques hold at infinity: eye, lights (neither).",
+        ),
+    ] = None,
+    subdivide: Annotated[
+        float | None,
+        typer.Option(
+            "--subdivide",
+            metavar="AREA",
+            help="Pixels above which scanline techniques subdivide a polygon (never).",
+        ),
+    ] = None,
     sampling: Annotated[
         str | None,
         typer.Option(
@@ -212,7 +244,10 @@ def render(
         "ambient": ambient,
         "interpolation": interpolation,
         "shading": shading,
-        "shadows": shadows or None,
+        "shadows": shadows,
+        "antialiasing": antialiasing,
+        "infinite": infinite,
+        "subdivide": subdivide,
     }
     with _Stop() as stop:
         from illuminant.rendering import Job

@@ -31,6 +31,19 @@ pub(super) struct Channels {
     pub values: Vec<Quad>,
 }
 
+impl Channels {
+    /// What was found for a polygon, 1/W or nothing first.
+    pub fn of_polygon(&self, polygon: u32, stride: usize) -> &[f32] {
+        self.values[polygon as usize * stride..][..stride].as_flattened()
+    }
+
+    /// Adds values, behind the first of them, to the channels of a pixel.
+    #[inline(always)]
+    pub fn add(&self, values: &[f32], factor: f32, pixel: &mut [f32]) {
+        self.of_film.iter().zip(&values[1..]).for_each(|(&channel, v)| pixel[channel] += v * factor);
+    }
+}
+
 /// The channels that lanes are added to.
 pub(super) fn channels_of_lanes(plan: &[LayerPlan]) -> Vec<usize> {
     let of_lanes = |layer: &&LayerPlan| matches!(layer.layer, Layer::Xyz | Layer::Terms | Layer::Spectra);
@@ -92,7 +105,8 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         pass: &'a Pass<N, M>,
         ambient: &'a [Lanes<N>],
     ) -> Lighting<'a, N, M> {
-        Lighting { scene, pass, group_of: &self.group_of, ambient, shadows: self.shadows }
+        let (lamps, shadows) = (&self.lamps, &self.shadows);
+        Lighting { scene, pass, group_of: &self.group_of, ambient, lamps, shadows }
     }
 
     /// A point of a polygon as it is shaded.
@@ -111,7 +125,9 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
             position,
             normal,
             object: face.object as usize,
-            to_viewer: (self.projection.eye - position).normalize_or(face.normal),
+            to_viewer: self
+                .distant_eye
+                .unwrap_or_else(|| (self.projection.eye - position).normalize_or(face.normal)),
             front: polygon.front,
             geometric: face.normal,
         }

@@ -1,5 +1,6 @@
 //! What reaches a point from lamps, for techniques that ask lamps alone.
 
+use super::shadows::Occlusion;
 use crate::lanes::Pass;
 use crate::skins::{Mixture, perturbed};
 use glam::Vec3;
@@ -19,26 +20,65 @@ const ON_LAMP: [[f32; 2]; 4] = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75,
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Arriving {
     pub lamp: usize,
+    /// Which of the places on the lamp.
+    pub place: usize,
     pub direction: Vec3,
     /// Irradiance at normal incidence relative to the lamp's spectrum.
     pub scale: f32,
-    target: Option<Vec3>,
+    pub target: Option<Vec3>,
+}
+
+/// Where on a lamp it is asked, as many as there are; none for what is all around.
+pub(super) fn places_on(form: &LampForm) -> &'static [[f32; 2]] {
+    match form {
+        LampForm::Uniform | LampForm::Image(_) => &[],
+        LampForm::Surface(_) => &ON_LAMP,
+        _ => &ON_LAMP[..1],
+    }
 }
 
 /// Light that arrives at a point from lamps.
-pub(super) fn arriving(scene: &Scene, point: Vec3, each: &mut impl FnMut(Arriving)) {
+fn arriving(scene: &Scene, point: Vec3, each: &mut impl FnMut(Arriving)) {
     for (number, lamp) in scene.lamps.iter().enumerate() {
-        let places = match &lamp.form {
-            LampForm::Uniform | LampForm::Image(_) => continue,
-            LampForm::Surface(_) => &ON_LAMP[..],
-            _ => &ON_LAMP[..1],
-        };
-        for &u in places {
+        let places = places_on(&lamp.form);
+        for (place, &u) in places.iter().enumerate() {
             let Some(light) = lamp.sample(&scene.geometry, point, 0.0, u) else { continue };
             let scale = light.scale / light.pdf.unwrap_or(1.0) / places.len() as f32;
-            each(Arriving { lamp: number, direction: light.direction, scale, target: light.target });
+            let (direction, target) = (light.direction, light.target);
+            each(Arriving { lamp: number, place, direction, scale, target });
         }
     }
+}
+
+/// The lamps of a scene: where they are, or at infinity.
+pub(super) struct Lamps {
+    /// What arrives in the middle of the scene, where that is taken to arrive everywhere.
+    everywhere: Option<Vec<Arriving>>,
+}
+
+impl Lamps {
+    pub fn new(scene: &Scene, at_infinity: bool) -> Self {
+        let in_the_middle = || {
+            let mut all = Vec::new();
+            arriving(scene, middle(scene), &mut |light| all.push(light));
+            all
+        };
+        Self { everywhere: at_infinity.then(in_the_middle) }
+    }
+
+    /// Light that arrives at a point.
+    pub fn arriving(&self, scene: &Scene, point: Vec3, each: &mut impl FnMut(Arriving)) {
+        match &self.everywhere {
+            Some(all) => all.iter().for_each(|light| each(*light)),
+            None => arriving(scene, point, each),
+        }
+    }
+}
+
+/// The middle of a scene.
+fn middle(scene: &Scene) -> Vec3 {
+    let (low, high) = scene.geometry.bounds();
+    (low + high) * 0.5
 }
 
 /// A place to be shaded.
@@ -68,8 +108,9 @@ pub(crate) struct Lighting<'a, const N: usize, M> {
     pub group_of: &'a [usize],
     /// Radiance from everywhere, of each group of lamps.
     pub ambient: &'a [Lanes<N>],
-    /// Whether lamps are looked for with a ray.
-    pub shadows: bool,
+    pub lamps: &'a Lamps,
+    /// What stands before lamps.
+    pub shadows: &'a Occlusion,
 }
 
 /// The radiance that stands for all light that is not followed: that of the surroundings, and a fraction of what lamps would make of a
@@ -80,9 +121,8 @@ pub(crate) fn ambient<const N: usize, M>(
     group_of: &[usize],
     fraction: f32,
 ) -> Vec<Lanes<N>> {
-    let (low, high) = scene.geometry.bounds();
     let mut all = vec![Lanes::default(); group_of.iter().max().map_or(0, |last| last + 1)];
-    arriving(scene, (low + high) * 0.5, &mut |light| {
+    arriving(scene, middle(scene), &mut |light| {
         all[group_of[light.lamp]] += pass.emission[light.lamp] * (light.scale * FRAC_1_PI * fraction);
     });
     for &lamp in &scene.surroundings {
@@ -157,6 +197,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
     }
 
     /// The same with a model given.
+    #[inline(never)]
     fn shade_with(&self, model: &M, place: &Place, parts: &mut Vec<Lanes<N>>) -> Lanes<N> {
         let groups = self.ambient.len();
         parts.clear();
@@ -194,16 +235,17 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
             parts[4 * groups + self.group_of[lamp]] = pass.emission[lamp] * relative;
         }
         if model.is_continuous() {
-            arriving(scene, place.position, &mut |light| {
+            self.lamps.arriving(scene, place.position, &mut |light| {
                 let l = frame.to_local(light.direction);
                 let found = model.components(&at, l);
                 if found.diffuse.is_zero() && found.specular.is_zero() {
                     return;
                 }
-                if self.shadows && self.is_hidden(place, &light) {
+                let visible = self.shadows.visible(scene, place, &light);
+                if visible == 0.0 {
                     return;
                 }
-                let irradiance = pass.emission[light.lamp] * (light.scale * l.z.abs());
+                let irradiance = pass.emission[light.lamp] * (light.scale * l.z.abs() * visible);
                 let group = self.group_of[light.lamp];
                 parts[groups + group] += found.diffuse * irradiance;
                 let part = if l.z * local.z > 0.0 { 2 } else { 3 };
@@ -217,16 +259,5 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
             }
         }
         model.see_through(&at)
-    }
-
-    fn is_hidden(&self, place: &Place, light: &Arriving) -> bool {
-        let reach = place.position.abs().max_element() + place.to_viewer.abs().max_element();
-        let away = place.geometric * (2e-5 * reach).copysign(place.geometric.dot(light.direction));
-        let origin = place.position + away;
-        let (span, tfar) = match light.target {
-            Some(target) => (target - origin, 0.999),
-            None => (light.direction, f32::INFINITY),
-        };
-        self.scene.geometry.is_occluded(origin, span, 0.0, tfar)
     }
 }

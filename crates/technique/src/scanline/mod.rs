@@ -6,11 +6,15 @@
 //! order of their depth (Newell, Newell and Sancha 1972).
 
 mod ahead;
+mod coverage;
 pub mod edges;
 mod fast_phong;
 mod lighting;
 mod projection;
 mod row;
+mod shadow_map;
+mod shadows;
+mod subdivision;
 mod surfaces;
 
 use crate::film::{Film, TOO_LARGE, TileFilm};
@@ -18,15 +22,17 @@ use crate::lanes::Pass;
 use crate::passes::{Job, TileCounts, TileRenderer, auxiliary_layers};
 use crate::path::Primary;
 use crate::sequence::Sequence;
-use crate::settings::{Interpolation, Layer, Settings, Shading, Technique};
+use crate::settings::{Antialiasing, Interpolation, Layer, Settings, Shading, Technique};
 use ahead::{Channels, ShadedPass, channels_of_lanes};
 use edges::Quad;
 use fast_phong::FastPhong;
 use illuminant_illumination::{Atmosphere, IlluminationModel, Prepare};
 use illuminant_scene::{Camera, Scene};
-use lighting::PARTS;
+use glam::Vec3;
+use lighting::{Lamps, PARTS};
 use projection::{Polygon, Projection};
 use row::{Band, Exposed, Sampled};
+use shadows::Occlusion;
 use std::ops::Range;
 use surfaces::Surfaces;
 
@@ -69,7 +75,11 @@ pub(crate) struct Scanline<const N: usize, M> {
     /// The group of each lamp, and how many groups there are.
     group_of: Vec<usize>,
     groups: usize,
-    shadows: bool,
+    lamps: Lamps,
+    shadows: Occlusion,
+    /// The direction to the eye, if it is at infinity for the model.
+    distant_eye: Option<Vec3>,
+    coverage: bool,
     /// Whether anything is to be told of what is seen first.
     sees: bool,
 }
@@ -103,7 +113,11 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         group_of: &[usize],
         passes: Vec<Pass<N, M>>,
     ) -> Self {
-        let surfaces = Surfaces::gather(scene, scene.camera.shutter[0]);
+        let mut surfaces = Surfaces::gather(scene, scene.camera.shutter[0]);
+        let shadows = Occlusion::new(scene, &surfaces, settings.shadows);
+        if let Some(area) = settings.subdivide {
+            surfaces.subdivide(scene, &scene.camera, settings.filter.radius(), area);
+        }
         let projection = Projection::new(&surfaces, &scene.camera);
         let seen_through = |object: &illuminant_scene::Object| {
             use illuminant_illumination::Surface;
@@ -154,7 +168,10 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
             parts,
             group_of: group_of.to_vec(),
             groups,
-            shadows: settings.shadows,
+            lamps: Lamps::new(scene, settings.infinite.lights),
+            shadows,
+            distant_eye: settings.infinite.eye.then(|| -scene.camera.forward()),
+            coverage: settings.antialiasing == Antialiasing::Coverage,
             surfaces,
             projection,
             passes: Vec::new(),
@@ -188,6 +205,28 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
     }
 }
 
+impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
+    /// One sample of every pixel of a band, number `index` of those that are scrambled as `stream` says. All pixels are sampled at the
+    /// same place, so that edges move by whole images.
+    fn expose_sample(
+        &self,
+        job: &Job,
+        area: [u32; 4],
+        (index, stream): (u64, u64),
+        band: &mut Band<N>,
+        channels: &mut [f32],
+        seen: &mut [Primary],
+    ) {
+        let [u, v, ..] = Sequence::new(job.settings.seed, 0, index, stream).next4();
+        let at = Sampled { area, offset: [job.filter.offset(u), job.filter.offset(v)] };
+        // Channels hold all passes.
+        let at_once = if self.channels.is_some() || self.fast.is_some() { self.passes.len() } else { 1 };
+        for passes in self.passes.chunks(at_once.max(1)) {
+            self.expose(job, passes, &at, band, &mut Exposed { channels, seen });
+        }
+    }
+}
+
 impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Scanline<N, M> {
     fn tile(&self, job: &Job, tile: &mut TileFilm, samples: Range<u64>) -> TileCounts {
         let mut result = TileCounts::default();
@@ -198,25 +237,23 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Scanlin
         let nothing = Primary::default();
         let replicates = u64::from(job.settings.replicates.max(1));
         for sample in tile.claim(samples).into_iter().flatten() {
-            // All pixels are sampled at the same place, so that edges move by whole images.
-            let mut sequence = Sequence::new(job.settings.seed, 0, sample / replicates, sample % replicates);
-            let [u, v, ..] = sequence.next4();
-            let at = Sampled { area: tile.area, offset: [job.filter.offset(u), job.filter.offset(v)] };
             channels.fill(0.0);
-            // Channels hold all passes.
-            let at_once = if self.channels.is_some() || self.fast.is_some() { self.passes.len() } else { 1 };
-            for passes in self.passes.chunks(at_once.max(1)) {
-                let mut exposed = Exposed { channels: &mut channels, seen: &mut seen };
-                self.scan(job, passes, &at, &mut band, &mut exposed);
+            let (index, stream) = (sample / replicates, sample % replicates);
+            if self.coverage {
+                self.cover(job, tile, (sample, index, stream), &mut band, &mut channels);
+            } else {
+                self.expose_sample(job, tile.area, (index, stream), &mut band, &mut channels, &mut seen);
             }
             // All at once, which takes no branch.
-            let sound = !self.sees && channels.iter().fold(true, |sound, v| sound & (v.abs() < TOO_LARGE));
+            let tells = (self.sees || replicates > 1) && !self.coverage;
+            let sound = !tells && channels.iter().fold(true, |sound, v| sound & (v.abs() < TOO_LARGE));
             for (i, values) in channels.chunks_exact_mut(job.channels).enumerate() {
-                if let Some(haze) = &job.haze {
-                    haze.apply(seen.get(i).unwrap_or(&nothing), values);
-                }
-                if self.sees || replicates > 1 {
-                    auxiliary_layers(job, seen.get(i).unwrap_or(&nothing), sample, values);
+                if tells {
+                    let seen = seen.get(i).unwrap_or(&nothing);
+                    if let Some(haze) = &job.haze {
+                        haze.apply(seen, values);
+                    }
+                    auxiliary_layers(job, seen, sample, values);
                 }
                 if sound || values.iter().all(|v| v.abs() < TOO_LARGE) {
                     tile.add(i, values);

@@ -32,7 +32,7 @@ impl Sampled {
     }
 
     /// The direction in which the camera sees a sample.
-    fn direction(&self, job: &Job, column: usize, y: i32) -> Vec3 {
+    pub(super) fn direction(&self, job: &Job, column: usize, y: i32) -> Vec3 {
         let x = (self.area[0] as usize + column) as f32 + 0.5 + self.offset[0];
         job.scene.camera.ray(x, y as f32 + 0.5 + self.offset[1], 0.0).direction
     }
@@ -40,19 +40,16 @@ impl Sampled {
 
 /// The buffers of one band of scanlines.
 pub(super) struct Band<const N: usize> {
-    table: EdgeTable,
+    pub(super) table: EdgeTable,
     /// The polygons that begin at each row.
     entering: Vec<Vec<u32>>,
     /// For each pixel of the scanline the largest 1/W, and the span that has it.
     nearest: Vec<f32>,
-    owner: Vec<u32>,
+    pub(super) owner: Vec<u32>,
     /// What lies before that, column by column, farthest first.
-    veils: Vec<Veil>,
-    /// The parts of the radiance of a pixel; the same of a veil, with what is seen through it.
-    pixel: Vec<f32>,
-    veil: Vec<f32>,
-    parts: Vec<Lanes<N>>,
+    pub(super) veils: Vec<Veil>,
     values: Vec<Quad>,
+    pub(super) scratch: Scratch<N>,
     /// How many spans there were.
     pub spans: u64,
 }
@@ -65,26 +62,95 @@ impl<const N: usize> Band<N> {
             nearest: Vec::new(),
             owner: Vec::new(),
             veils: Vec::new(),
-            pixel: Vec::new(),
-            veil: Vec::new(),
-            parts: Vec::new(),
             values: Vec::new(),
+            scratch: Scratch::default(),
             spans: 0,
         }
     }
 }
 
+/// The buffers of what is seen at one place.
+#[derive(Default)]
+pub(super) struct Scratch<const N: usize> {
+    /// The parts of the radiance of a pixel; the same of a veil, with what is seen through it.
+    pixel: Vec<f32>,
+    veil: Vec<f32>,
+    parts: Vec<Lanes<N>>,
+}
+
+/// What is seen at one place in one pass: an opaque surface or the surroundings, and what lies before it, farthest first.
+pub(super) struct Stack<'a, const N: usize, M> {
+    scanline: &'a Scanline<N, M>,
+    job: &'a Job,
+    shaded: &'a ShadedPass<N, M>,
+    lighting: Lighting<'a, N, M>,
+    scratch: &'a mut Scratch<N>,
+}
+
+impl<'a, const N: usize, M: IlluminationModel<N> + Prepare> Stack<'a, N, M> {
+    pub fn new(
+        scanline: &'a Scanline<N, M>,
+        job: &'a Job,
+        shaded: &'a ShadedPass<N, M>,
+        scratch: &'a mut Scratch<N>,
+    ) -> Self {
+        let lighting = scanline.lighting(&job.scene, &shaded.pass, &shaded.ambient);
+        let count = N * scanline.parts * scanline.groups;
+        scratch.pixel.resize(count, 0.0);
+        scratch.veil.resize(count + N, 0.0);
+        Self { scanline, job, shaded, lighting, scratch }
+    }
+
+    /// Begins with the surroundings in a direction.
+    pub fn begin_with_background(&mut self, direction: impl FnOnce() -> Vec3) {
+        let Scratch { pixel, parts, .. } = &mut *self.scratch;
+        pixel.fill(0.0);
+        if !self.job.scene.surroundings.is_empty() {
+            let groups = self.scanline.groups;
+            parts.clear();
+            parts.resize(groups, Lanes::default());
+            self.lighting.add_background(direction(), parts);
+            let own = pixel.len() - N * groups;
+            let slots = pixel[own..].chunks_exact_mut(N);
+            slots.zip(parts.iter()).for_each(|(slot, light)| slot.copy_from_slice(&light.0));
+        }
+    }
+
+    /// Begins with a polygon, from its interpolated values.
+    #[inline]
+    pub fn begin(&mut self, polygon: u32, values: &[f32]) {
+        let Scratch { pixel, parts, .. } = &mut *self.scratch;
+        self.scanline.resolve(&self.lighting, self.shaded, polygon, values, pixel, parts);
+    }
+
+    /// Puts a transparent polygon before it.
+    pub fn cover(&mut self, polygon: u32, values: &[f32]) {
+        let Scratch { pixel, veil, parts } = &mut *self.scratch;
+        self.scanline.resolve(&self.lighting, self.shaded, polygon, values, veil, parts);
+        let (own, through) = veil.split_at(pixel.len());
+        for (i, (behind, own)) in pixel.iter_mut().zip(own).enumerate() {
+            *behind = *behind * through[i % N] + own;
+        }
+    }
+
+    /// Adds all of it to the channels of a pixel.
+    pub fn add_to(&self, channels: &mut [f32]) {
+        let size = (self.scanline.parts, self.scanline.groups);
+        add_to_channels(&self.job.plan, &self.shaded.pass, &self.scratch.pixel, size, channels);
+    }
+}
+
 /// A pixel of a transparent span.
 #[derive(Clone, Copy)]
-struct Veil {
-    column: usize,
+pub(super) struct Veil {
+    pub column: usize,
     /// 1/W.
     q: f32,
     polygon: u32,
-    span: u32,
+    pub span: u32,
 }
 
-const NOBODY: u32 = u32::MAX;
+pub(super) const NOBODY: u32 = u32::MAX;
 
 /// The film of one sample of a band.
 pub(super) struct Exposed<'a> {
@@ -158,7 +224,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
     }
 
     /// One sample of every pixel of a band, in these passes.
-    pub(super) fn scan(
+    pub(super) fn expose(
         &self,
         job: &Job,
         passes: &[ShadedPass<N, M>],
@@ -166,8 +232,21 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         band: &mut Band<N>,
         exposed: &mut Exposed<'_>,
     ) {
+        let mut row = |band: &mut Band<N>, y| self.expose_row(job, passes, at, y, band, exposed);
+        self.scan(job, &passes[0], at, band, &mut row);
+    }
+
+    /// Finds what is visible in each row of a band.
+    pub(super) fn scan(
+        &self,
+        job: &Job,
+        pass: &ShadedPass<N, M>,
+        at: &Sampled,
+        band: &mut Band<N>,
+        each_row: &mut impl FnMut(&mut Band<N>, i32),
+    ) {
         let area = at.area;
-        let ahead = self.ahead_of_spans(&passes[0]);
+        let ahead = self.ahead_of_spans(pass);
         let rows = [area[1] as i32, area[3] as i32];
         let shift = at.offset.map(|v| 0.5 + f64::from(v));
         band.entering.iter_mut().for_each(Vec::clear);
@@ -185,7 +264,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
             band.table.scan(y, at.columns());
             band.spans += band.table.spans.len() as u64;
             self.resolve_depth(band, at.columns());
-            self.expose_row(job, passes, at, y, band, exposed);
+            each_row(band, y);
         }
     }
 
@@ -234,8 +313,10 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
                     }
                     let direction = at.direction(job, column, y);
                     let background = owner == NOBODY && !job.scene.surroundings.is_empty();
-                    exposed.seen[first + column] =
-                        self.primary(job, &band.table, nearest, direction, background);
+                    let spans = &band.table.spans;
+                    let polygon = (nearest.0 != NOBODY).then(|| spans[nearest.0 as usize].polygon);
+                    let nearest = polygon.map(|polygon| (polygon, nearest.1));
+                    exposed.seen[first + column] = self.primary(job, nearest, direction, background);
                 }
             }
             while band.veils.get(veil).is_some_and(|v| v.column < run.end) {
@@ -245,20 +326,16 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         }
     }
 
-    /// What is seen first at a sample.
-    fn primary(
+    /// What is seen first at a sample: a polygon at 1/W, if it is one.
+    pub(super) fn primary(
         &self,
         job: &Job,
-        table: &EdgeTable,
-        (span, q): (u32, f32),
+        nearest: Option<(u32, f32)>,
         direction: Vec3,
         background: bool,
     ) -> Primary {
-        if span == NOBODY {
-            return Primary { surface: None, emits: background };
-        }
-        let polygon = table.spans[span as usize].polygon as usize;
-        let face = &self.surfaces.faces[self.projection.polygons[polygon].face as usize];
+        let Some((polygon, q)) = nearest else { return Primary { surface: None, emits: background } };
+        let face = &self.surfaces.faces[self.projection.polygons[polygon as usize].face as usize];
         // W is along the direction of view; distance is along the ray.
         let slant = direction.dot(job.scene.camera.forward());
         let lamp = job.scene.objects[face.object as usize].lamp;
@@ -281,10 +358,8 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         let span = &table.spans[number];
         let pixels = to.chunks_exact_mut(job.channels);
         if self.technique == Technique::Constant {
-            let values = &channels.values[span.polygon as usize * self.stride..][..self.stride];
-            let values = &values.as_flattened()[1..];
             for pixel in pixels {
-                channels.of_film.iter().zip(values).for_each(|(&channel, v)| pixel[channel] += v);
+                channels.add(channels.of_polygon(span.polygon, self.stride), 1.0, pixel);
             }
             return;
         }
@@ -324,11 +399,8 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         veil: &mut usize,
         to: &mut [f32],
     ) {
-        let lighting = self.lighting(&job.scene, &shaded.pass, &shaded.ambient);
-        let Band { table, veils, pixel, veil: before, parts, values, .. } = band;
-        let count = N * self.parts * self.groups;
-        pixel.resize(count, 0.0);
-        before.resize(count + N, 0.0);
+        let Band { table, veils, values, scratch, .. } = band;
+        let mut stack = Stack::new(self, job, shaded, scratch);
         let place = |number: u32, column: usize| {
             let span = table.spans[number as usize];
             (span.polygon, (at.area[0] as i32 + column as i32 - span.start) as f32)
@@ -336,14 +408,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         for (i, channels) in to.chunks_exact_mut(job.channels).enumerate() {
             let column = first + i;
             if owner == NOBODY {
-                pixel.fill(0.0);
-                if !job.scene.surroundings.is_empty() {
-                    parts.clear();
-                    parts.resize(self.groups, Lanes::default());
-                    lighting.add_background(at.direction(job, column, y), parts);
-                    let slots = pixel[count - N * self.groups..].chunks_exact_mut(N);
-                    slots.zip(parts.iter()).for_each(|(slot, light)| slot.copy_from_slice(&light.0));
-                }
+                stack.begin_with_background(|| at.direction(job, column, y));
             } else {
                 let (start, growth) = table.of_span(owner as usize);
                 let (polygon, skipped) = place(owner, column);
@@ -353,20 +418,16 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
                 } else {
                     values.iter_mut().zip(growth).for_each(|(v, growth)| *v = grown(*v, *growth, 1.0));
                 }
-                self.resolve(&lighting, shaded, polygon, values.as_flattened(), pixel, parts);
+                stack.begin(polygon, values.as_flattened());
             }
             while let Some(v) = veils.get(*veil).filter(|v| v.column == column) {
                 *veil += 1;
                 let (start, growth) = table.of_span(v.span as usize);
                 let (polygon, skipped) = place(v.span, column);
                 let at: Vec<Quad> = start.iter().zip(growth).map(|(v, g)| grown(*v, *g, skipped)).collect();
-                self.resolve(&lighting, shaded, polygon, at.as_flattened(), before, parts);
-                let (own, through) = before.split_at(count);
-                for (i, (behind, own)) in pixel.iter_mut().zip(own).enumerate() {
-                    *behind = *behind * through[i % N] + own;
-                }
+                stack.cover(polygon, at.as_flattened());
             }
-            add_to_channels(&job.plan, &shaded.pass, pixel, (self.parts, self.groups), channels);
+            stack.add_to(channels);
         }
     }
 
