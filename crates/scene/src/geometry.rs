@@ -6,7 +6,7 @@
 
 use crate::Motion;
 use crate::embree::{self, Device, EmbreeError, RtcArguments, RtcRay, RtcRayHit};
-use crate::shape::{Mesh, Placement, Shape, bake, check_shape, FACET_DEPTH, facets_of_sphere, reach};
+use crate::shape::{FACET_DEPTH, Mesh, Placement, Shape, bake, check_shape, facets_of_sphere, reach};
 use crate::surface::{Hit, Ray, SurfacePoint, along_texture, instance_point, mesh_point, sphere_point};
 use crate::ties::{TieContext, break_ties};
 use glam::{Affine3A, Vec2, Vec3};

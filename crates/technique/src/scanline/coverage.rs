@@ -114,7 +114,8 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         let own_values = self.technique == Technique::Gouraud && self.channels.is_none();
         let passes: Vec<&[ShadedPass<N, M>]> =
             self.passes.chunks(if own_values { 1 } else { self.passes.len().max(1) }).collect();
-        let collect = |passes: &&[ShadedPass<N, M>]| self.fragments(job, area, &passes[0], (index, stream), band);
+        let collect =
+            |passes: &&[ShadedPass<N, M>]| self.fragments(job, area, &passes[0], (index, stream), band);
         let found: Vec<Fragments> = passes.iter().map(collect).collect();
         let Some(first) = found.first() else { return };
         let (mut one, mut values) = (vec![0.0; job.channels], Vec::new());
@@ -158,8 +159,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         found.heads = vec![NONE; width * height];
         let (mut polygons, mut values): (Vec<u32>, Vec<Quad>) = (Vec::new(), Vec::new());
         for place in 0..PLACES {
-            let [u, v, ..] =
-                Sequence::new(job.settings.seed, 0, index * PLACES + place, stream).next4();
+            let [u, v, ..] = Sequence::new(job.settings.seed, 0, index * PLACES + place, stream).next4();
             let at = Sampled { area, offset: [job.filter.offset(u), job.filter.offset(v)] };
             let mut row = |band: &mut Band<N>, y: i32| {
                 let first = (y as u32 - area[1]) as usize * width;
@@ -224,7 +224,9 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
             let layers = seen.polygons.iter().zip(values.chunks_exact(self.quads));
             for (i, (&polygon, values)) in layers.enumerate() {
                 match (i, polygon) {
-                    (0, NOBODY) => stack.begin_with_background(|| seen.at.direction(job, seen.column, seen.y)),
+                    (0, NOBODY) => {
+                        stack.begin_with_background(|| seen.at.direction(job, seen.column, seen.y))
+                    }
                     (0, _) => stack.begin(polygon, values.as_flattened()),
                     _ => stack.cover(polygon, values.as_flattened()),
                 }

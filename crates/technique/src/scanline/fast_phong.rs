@@ -138,7 +138,6 @@ impl Normals {
 /// every n from 1.
 #[derive(Clone, Debug)]
 struct PowerTable {
-    least: f32,
     inverse_step: f32,
     values: Vec<f32>,
 }
@@ -152,12 +151,13 @@ impl PowerTable {
         let step = (1.0 - least) / Self::STEPS as f64;
         // One more, so that 1 has a next one.
         let values = (0..=Self::STEPS + 1).map(|i| (least + step * i as f64).min(1.0).powf(exponent) as f32);
-        Self { least: least as f32, inverse_step: step.recip() as f32, values: values.collect() }
+        Self { inverse_step: step.recip() as f32, values: values.collect() }
     }
 
     #[inline(always)]
     fn power(&self, x: f32) -> f32 {
-        let at = (x - self.least) * self.inverse_step;
+        // From 1 down, where the difference is exact.
+        let at = Self::STEPS as f32 - (1.0 - x) * self.inverse_step;
         if at < 0.0 {
             return 0.0;
         }

@@ -26,9 +26,9 @@ use crate::settings::{Antialiasing, Interpolation, Layer, Settings, Shading, Tec
 use ahead::{Channels, ShadedPass, channels_of_lanes};
 use edges::Quad;
 use fast_phong::FastPhong;
+use glam::Vec3;
 use illuminant_illumination::{Atmosphere, IlluminationModel, Prepare};
 use illuminant_scene::{Camera, Scene};
-use glam::Vec3;
 use lighting::{Lamps, PARTS};
 use projection::{Polygon, Projection};
 use row::{Band, Exposed, Sampled};

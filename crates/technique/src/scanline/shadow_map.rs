@@ -53,7 +53,8 @@ impl View {
     /// A square image by perspective.
     fn perspective(eye: DVec3, axis: DVec3, half_angle_deg: f64, size: u32) -> Option<Self> {
         let up = if axis.y.abs() > 0.9 { DVec3::X } else { DVec3::Y };
-        let camera = Camera::new(eye, eye + axis, up, 2.0 * half_angle_deg, [size; 2], None, [0.0; 2]).ok()?;
+        let camera =
+            Camera::new(eye, eye + axis, up, 2.0 * half_angle_deg, [size; 2], None, [0.0; 2]).ok()?;
         // Z = 1, so that nearness is 1/W.
         let mut rows = camera.matrix().transpose();
         rows.z_axis = DVec4::W;

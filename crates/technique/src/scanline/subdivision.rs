@@ -25,9 +25,8 @@ impl Seen {
     /// Whether a triangle is wholly beyond one of the planes that bound what is seen.
     fn is_outside(&self, corners: [u32; 3]) -> bool {
         let [left, top, right, bottom] = self.area;
-        let beyond = |plane: &dyn Fn(&DVec4) -> f64| {
-            corners.iter().all(|&i| plane(&self.vertices[i as usize]) < 0.0)
-        };
+        let beyond =
+            |plane: &dyn Fn(&DVec4) -> f64| corners.iter().all(|&i| plane(&self.vertices[i as usize]) < 0.0);
         beyond(&|p| p.w)
             || beyond(&|p| p.x - left * p.w)
             || beyond(&|p| right * p.w - p.x)
