@@ -15,7 +15,7 @@ from pydantic import Discriminator, Tag
 
 from illuminant.table import Corners, Edges, Length, Matrix, Number, Table, Vector, key
 
-__all__ = ["Box", "Disc", "MeshTable", "MeshValue", "Object", "Rectangle", "Rotation", "Sphere"]
+__all__ = ["Box", "Disc", "MeshTable", "MeshValue", "Move", "Object", "Rectangle", "Rotation", "Sphere"]
 
 
 class Sphere(Table):
@@ -158,6 +158,21 @@ ScaleValue = Annotated[
 ]
 
 
+class Move(Table):
+    """Where an object is at a later time: its whole transform, stated as that of the object itself."""
+
+    scale: ScaleValue | None = key("a factor, or one for each axis", "0.01", None)
+    rotate: RotateValue | None = key(
+        "a rotation, or a list that is done in order", '{ axis = "y", degrees = 40.0 }', None
+    )
+    translate: Vector | None = key("a shift, in length units", "[0.2, 0.5, 0.0]", None)
+    matrix: Matrix | None = key(
+        "three or four rows of four numbers, instead of the other three; the last column is in length units",
+        "[[1.0, 0.0, 0.0, 0.7], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]",
+        None,
+    )
+
+
 class Object(Table):
     """A thing with one material: exactly one of `mesh`, `sphere`, `rectangle`, `box` and `disc`.
 
@@ -190,5 +205,10 @@ class Object(Table):
     matrix: Matrix | None = key(
         "three or four rows of four numbers, instead of the other three; the last column is in length units",
         "[[1.0, 0.0, 0.0, 0.5], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]",
+        None,
+    )
+    motion: list[Move] | None = key(
+        "where the object is later, at even distances of time, the last at the end; between them it goes straight on",
+        "[{ translate = [0.2, 0.5, 0.0] }]",
         None,
     )

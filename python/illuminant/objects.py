@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from illuminant import meshes, placement, shapes
 from illuminant.errors import DataError, suggestion
 from illuminant.report import Path, Report, read_table
-from illuminant.schema import MeshTable, Object
+from illuminant.schema import MeshTable, Move, Object
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,7 +36,7 @@ class Placed:
 
     Attributes:
         arrays: "positions", "indices" and perhaps "normals" and "uvs" of a mesh, or "sphere" (centre and radius).
-        transform: float64 (1, 3, 4), one key over the shutter.
+        transform: float64 (K, 3, 4), keys at even distances over the time in which things move; one is at rest.
     """
 
     arrays: dict[str, np.ndarray]
@@ -93,10 +93,29 @@ class ObjectResolver:
         elif given[0] not in bad:
             arrays = self._shape(table, given[0], matrix, path)
             if arrays is not None and matrix is not None:
-                placed = Placed(arrays, matrix[None])
+                placed = Placed(arrays, self._keys(table, raw, matrix, path))
         return None if placed is None or len(self.report.problems) > before else (placed, table.material)
 
-    def _transform(self, table: Object, raw: dict[str, Any], path: Path) -> np.ndarray | None:
+    def _keys(self, table: Object, raw: dict[str, Any], first: np.ndarray, path: Path) -> np.ndarray:
+        """The transform and those of `motion`."""
+        import numpy as np
+
+        keys = [first]
+        for i, move in enumerate(table.motion or []):
+            matrix = self._transform(move, raw["motion"][i], (*path, "motion", i))
+            if matrix is None:
+                continue
+            if (np.linalg.det(matrix[:, :3]) > 0) != (np.linalg.det(first[:, :3]) > 0):
+                self.report.add(
+                    (*path, "motion", i), "turns the object inside out on its way", kind="transform"
+                )
+            if table.sphere is not None and placement.even_scale(matrix[:, :3]) is None:
+                message = "must scale a sphere the same in all directions"
+                self.report.add((*path, "motion", i), message, kind="transform")
+            keys.append(matrix)
+        return np.array(keys)
+
+    def _transform(self, table: Move | Object, raw: dict[str, Any], path: Path) -> np.ndarray | None:
         others = [key for key in ("scale", "rotate", "translate") if key in raw]
         if "matrix" in raw and others:
             self.report.add(

@@ -117,6 +117,7 @@ def scene_file_reference() -> str:
         "## Top of the file\n",
         _keys(top, simple),
         _section("[camera]", schema.Camera),
+        _table("`moves_to`", schema.CameraMove),
         _section("[render]", schema.Render),
         _table("The filter", schema.Filter),
         SPECTRA,
@@ -139,12 +140,14 @@ def scene_file_reference() -> str:
         _table("`box`", schema.Box),
         _table("`disc`", schema.Disc),
         _table("`rotate`", schema.Rotation),
+        _table("`motion`", schema.Move),
         "## Lights\n\nA light is a table `[lights.NAME]`; `kind` says which one it is. Objects with an emitter "
         "material shine too.\n",
         *(_kind("lights", name, model) for name, model in schema.KINDS_OF_LIGHT.items()),
         "## Atmosphere\n\n`[atmosphere]` says what becomes of light on its way to the eye; `kind` says how. These are "
         "effects for the eye, not media: light between surfaces does not know of them.\n",
         *(_kind("atmosphere", name, model) for name, model in schema.KINDS_OF_ATMOSPHERE.items()),
+        _section("Medium", schema.Medium).replace("## Medium", "## Medium\n\n`[medium]`", 1),
         QUANTITY,
         _quantities(),
     ]

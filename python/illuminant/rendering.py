@@ -426,6 +426,9 @@ def render(
     lamps: bool | None = None,
     time: str | float | None = None,
     error: str | float | None = None,
+    sampler: str | None = None,
+    threshold: float | None = None,
+    light_centres: str | None = None,
     ambient: float | None = None,
     interpolation: str | None = None,
     shading: str | None = None,
@@ -459,7 +462,10 @@ def render(
         lamps: a layer `lamp:NAME` for the light of each lamp.
         time: end when this time is up: seconds, or `"30s"`, `"5m"`.
         error: end at this relative standard error: a fraction, or `"1%"`.
-        ambient: ambient light of scanline techniques; default 0.15 of what lamps make of a white diffuser.
+        sampler: which random numbers; default `sobol-owen`, or `random`, `stratified`, `jittered`, `poisson-disk`.
+        threshold: weight below which `raytrace` and `distributed` follow a ray no more; default 0.002.
+        light_centres: where they ask lamps that have an area; default `jittered`, or `random`, or `fixed:N`.
+        ambient: ambient light of all techniques but `path`; default 0.15 of what lamps make of a white diffuser.
         interpolation: where scanline techniques interpolate; default `object`, or `screen`.
         shading: how `phong` finds the illumination at a pixel; default `full`, or `duff` or `bishop-weimer`.
         shadows: how scanline techniques find shadows; default `none`, or `rays`, or `maps:N` of N texels.
@@ -501,6 +507,9 @@ def render(
         lamps=lamps,
         time=time,
         error=error,
+        sampler=sampler,
+        threshold=threshold,
+        light_centres=light_centres,
         ambient=ambient,
         interpolation=interpolation,
         shading=shading,

@@ -18,11 +18,12 @@ from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-from illuminant import environments, finishes, materials, panoramas, placement, spectra
+from illuminant import environments, finishes, materials, panoramas, photometry_file, placement, spectra
 from illuminant.coefficient_schema import ALL_MODELS, Coefficients
 from illuminant.core import core
 from illuminant.curves import Curves, curve_from_spectrum
 from illuminant.errors import DataError, ImageError, suggestion
+from illuminant.photometry_file import Photometry
 from illuminant.quantities import FITTING, QUANTITIES
 from illuminant.report import Path, Report, found, read_table
 from illuminant.schema import (
@@ -31,6 +32,7 @@ from illuminant.schema import (
     KINDS_OF_MATERIAL,
     MAX_PIXELS,
     Camera,
+    Medium,
     Table,
 )
 from illuminant.spectra import Spectrum
@@ -137,7 +139,16 @@ class Resolver:
         told = [] if "coefficients" in bad else self._coefficients(table.coefficients, path)
         if len(self.report.problems) > before:
             return None
-        return Material({"name": name, "surface": entry, "coefficients": told}, skin, emission)
+        return Material(
+            {
+                "name": name,
+                "surface": entry,
+                "coefficients": told,
+                "priority": getattr(table, "priority", 0),
+            },
+            skin,
+            emission,
+        )
 
     def _named(self, name: str, table: Any, bad: set[str], path: Path) -> Material | None:
         """A material in words, by the table of the scene file that they stand for."""
@@ -347,8 +358,11 @@ class Resolver:
         """A light, or None after reporting its mistakes; the image of an environment goes to `images`."""
         path: Path = ("lights", name)
         before = len(self.report.problems)
+        web = self._photometry(raw, path)
+        if web is not None and not any(key in raw for key in QUANTITIES):
+            raw = raw | {"intensity_cd": float(web.candela.max())}
         table, bad = self._kind(KINDS_OF_LIGHT, raw, path)
-        if table is None:
+        if table is None or (web is None and "photometry" in raw and "photometry" not in bad):
             return None
         entry: dict[str, Any] = {"name": name, "kind": table.kind}
         source = table.kind
@@ -381,7 +395,45 @@ class Resolver:
                         kind="range",
                     )
         entry["quantity"] = self._quantity(table, raw, source, path)
+        if web is not None and table.kind == "point":
+            del entry["distribution"]
+            entry |= self._luminaire(table, raw, bad, web, path)
         return None if len(self.report.problems) > before else entry
+
+    def _photometry(self, raw: Any, path: Path) -> Photometry | None:
+        """What the file of a luminaire says, or None if there is none, or after reporting its mistakes."""
+        given = raw.get("photometry") if isinstance(raw, dict) and raw.get("kind") == "point" else None
+        if not isinstance(given, str):
+            return None
+        try:
+            return photometry_file.read(self.directory / given)
+        except DataError as error:
+            kind = "missing-file" if error.message == "there is no such file" else "photometry"
+            self.report.add_data_error((*path, "photometry"), error, kind)
+            return None
+
+    def _luminaire(
+        self, table: Any, raw: dict[str, Any], bad: set[str], web: Photometry, path: Path
+    ) -> dict[str, Any]:
+        """A point light that shines as a photometric web says."""
+        import numpy as np
+
+        for other in ("cosine_power", "distribution"):
+            if other in raw:
+                self.report.add((*path, other), "is given twice: photometry says it too", kind="exactly-one")
+        down = [-float(axis == self.up) for axis in "xyz"]
+        axis = np.array(down if table.axis is None or "axis" in bad else table.axis, float)
+        axis /= np.linalg.norm(axis) or 1.0
+        along = [1.0, 0.0, 0.0] if abs(axis[0]) < 0.99 else [0.0, 0.0, 1.0]
+        across = placement.rotation(axis, float(table.turn_deg)) @ np.array(along) if axis.any() else along
+        return {
+            "kind": "luminaire",
+            "axis": axis.tolist(),
+            "across": list(map(float, across)),
+            "planes_deg": web.planes_deg.tolist(),
+            "angles_deg": web.angles_deg.tolist(),
+            "values": web.candela.ravel().tolist(),
+        }
 
     def _distribution(self, table: Any, raw: dict[str, Any], path: Path) -> dict[str, Any] | None:
         """How intensity depends on direction, or None."""
@@ -460,6 +512,71 @@ class Resolver:
             entry |= {"power": float(table.power), "unit": table.unit * self.unit_m}
         return None if len(self.report.problems) > before else entry
 
+    def medium(self, raw: Any) -> dict[str, Any] | None:
+        """What is in the air, or None after reporting mistakes."""
+        path: Path = ("medium",)
+        before = len(self.report.problems)
+        table, bad = read_table(Medium, raw, path, self.report)
+        if table is None:
+            return None
+        entry: dict[str, Any] = {
+            name: self._spectrum(table, bad, name, "absorption", path)
+            for name in ("absorption", "scattering")
+        }
+        if table.phase == "rayleigh" and table.mean_cosine is not None:
+            self.report.add(
+                (*path, "mean_cosine"), "belongs to the phase henyey-greenberg", kind="exactly-one"
+            )
+        even = "rayleigh" if table.phase == "rayleigh" else {"henyey_greenberg": table.mean_cosine or 0.0}
+        box = None if table.box is None else [self._lengths(table.box.min), self._lengths(table.box.max)]
+        if box is not None and not all(a < b for a, b in zip(*box, strict=True)):
+            self.report.add((*path, "box"), "must have max above min along every axis", kind="range")
+        density = None
+        if table.density is not None:
+            if box is None:
+                self.report.add((*path, "box"), "is missing; density fills it", kind="missing-key")
+            try:
+                density = self._density(table.density)
+            except DataError as error:
+                self.report.add_data_error((*path, "density"), error, "density")
+        return (
+            None
+            if len(self.report.problems) > before
+            else entry
+            | {
+                "phase": even,
+                "bounds": box,
+                "density": density,
+            }
+        )
+
+    def _density(self, given: Any) -> list[Any]:
+        """The name of the image that holds a density, and its cells along x, y and z."""
+        import numpy as np
+
+        if isinstance(given, str):
+            file = FilePath(self.directory) / given
+            try:
+                cells = np.load(file, allow_pickle=False)
+            except FileNotFoundError:
+                raise DataError("there is no such file", str(file)) from None
+            except (OSError, ValueError, EOFError) as error:
+                raise DataError(f"is no NumPy file of numbers ({error})", str(file)) from error
+        else:
+            try:
+                cells = np.asarray(given, dtype=np.float32)
+            except (TypeError, ValueError):
+                raise DataError(f"must be the name of a NumPy file, found {found(given)}") from None
+        if cells.ndim != 3 or cells.size == 0 or cells.dtype.kind not in "fiu":
+            raise DataError(f"must hold numbers along three axes, x, y and z; found shape {cells.shape}")
+        cells = np.asarray(cells, dtype=np.float32)
+        if not (np.isfinite(cells).all() and (cells >= 0).all() and cells.max() > 0):
+            raise DataError("must be finite and not negative, and somewhere above 0")
+        nx, ny, nz = cells.shape
+        rows = cells.transpose(2, 1, 0).reshape(nz * ny, nx, 1)
+        self.images["medium density"] = np.ascontiguousarray(np.repeat(rows, 3, axis=2))
+        return ["medium density", [nx, ny, nz]]
+
     # --- camera ------------------------------------------------------------------------------------------------
 
     def camera(self, raw: Any) -> dict[str, Any] | None:
@@ -500,6 +617,9 @@ class Resolver:
                     f"must be left, top, right, bottom inside {width} × {height} pixels, found {table.crop}",
                     kind="crop",
                 )
+        lens = self._lens(table, raw, math.hypot(*view), path)
+        if table.shutter is not None and table.shutter[0] > table.shutter[1]:
+            self.report.add((*path, "shutter"), "must open before it closes", kind="range")
         if len(self.report.problems) > before:
             return None
         return {
@@ -509,7 +629,40 @@ class Resolver:
             "field_of_view_deg": float(table.field_of_view),
             "size": list(table.size),
             "crop": None if table.crop is None else list(table.crop),
-            "shutter": [0.0, 0.0],
+            "shutter": [0.0, 1.0] if table.shutter is None else [float(value) for value in table.shutter],
+            "lens": lens,
+            "end": self._camera_end(table, eye, target, up),
+        }
+
+    def _camera_end(self, table: Any, eye: list[float], target: list[float], up: list[float]) -> Any:
+        """Eye, target and up at the end of the motion, or None for a camera at rest."""
+        move = table.moves_to
+        if move is None:
+            return None
+        return {
+            "eye": eye if move.eye is None else self._lengths(move.eye),
+            "target": target if move.target is None else self._lengths(move.target),
+            "up": [float(value) for value in (up if move.up is None else move.up)],
+        }
+
+    def _lens(self, table: Any, raw: Any, distance_m: float, path: Path) -> dict[str, Any] | None:
+        """The lens, or None for a pinhole."""
+        pair = ("focal_length_mm", "f_number")
+        given = [name for name in pair if raw.get(name) is not None]
+        others = [name for name in ("focus_distance", "blades", "blades_turned") if raw.get(name) is not None]
+        if len(given) == 1 or (others and not given):
+            missing = next(name for name in pair if name not in given)
+            self.report.add(
+                (*path, missing), f"is missing; {(given or others)[0]} needs it", kind="missing-key"
+            )
+        if len(given) < 2:
+            return None
+        focus = distance_m if table.focus_distance is None else table.focus_distance * self.unit_m
+        return {
+            "radius": 0.5e-3 * table.focal_length_mm / table.f_number,
+            "focus": focus,
+            "blades": table.blades or 0,
+            "turn_deg": float(table.blades_turned or 0.0),
         }
 
     # --- what all share ----------------------------------------------------------------------------------------
@@ -586,7 +739,7 @@ def indexed(description: dict[str, Any]) -> dict[str, Any]:
 
     parts = {
         key: walk(description[key])
-        for key in ("materials", "skins", "objects", "lights", "camera", "atmosphere")
+        for key in ("materials", "skins", "objects", "lights", "camera", "atmosphere", "medium")
     }
     return {"range": description["range"], "curves": curves, **parts}
 
@@ -597,7 +750,7 @@ def in_place(description: Mapping[str, Any]) -> dict[str, Any]:
         Spectrum(curve["name"], curve["wavelengths"], curve["values"], curve["outside"])
         for curve in description["curves"]
     ]
-    curve_keys = ("reflectance", "transmittance", "pigment", "n", "k", "absorption", "spectrum")
+    curve_keys = ("reflectance", "transmittance", "pigment", "n", "k", "absorption", "scattering", "spectrum")
     keys = (*curve_keys, "diffuse_curve", "specular_curve", "transmitted_curve")
 
     def walk(value: Any) -> Any:

@@ -124,6 +124,7 @@ class Scene:
         lights: Mapping[str, Mapping[str, Any]] | None = None,
         spectra: Mapping[str, Any] | None = None,
         atmosphere: Mapping[str, Any] | None = None,
+        medium: Mapping[str, Any] | None = None,
         render: Mapping[str, Any] | None = None,
         title: str = "",
         length_unit: str = "m",
@@ -145,6 +146,7 @@ class Scene:
             lights: the tables `[lights.NAME]`.
             spectra: the table `[spectra]`.
             atmosphere: the table `[atmosphere]`.
+            medium: the table `[medium]`; its `density` may be an (x, y, z) array.
             render: the table `[render]`.
             title: what the scene shows.
             length_unit: unit of all lengths: m, cm, mm, in, ft.
@@ -184,6 +186,7 @@ class Scene:
             "lights": lights,
             "spectra": spectra,
             "atmosphere": atmosphere,
+            "medium": medium,
             "render": render,
         }
         return scene_file.resolve(

@@ -33,7 +33,7 @@ MAX_BYTES = 100_000_000
 """The largest scene file."""
 
 NO_LIGHT = "the scene has no light; expected an object with an emitter material, or a table [lights.NAME]"
-TABLES = ("camera", "render", "spectra", "materials", "objects", "lights", "atmosphere")
+TABLES = ("camera", "render", "spectra", "materials", "objects", "lights", "atmosphere", "medium")
 
 
 def load(path: str | os.PathLike[str]) -> Scene:
@@ -180,6 +180,7 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
     materials = {name: resolver.material(name, raw) for name, raw in tables["materials"].items()}
     lights = [resolver.light(name, raw) for name, raw in tables["lights"].items()]
     atmosphere = resolver.atmosphere(tables["atmosphere"]) if "atmosphere" in data else None
+    medium = resolver.medium(tables["medium"]) if "medium" in data else None
     placer = ObjectResolver(report, head.length_unit, head.up, directory)
     placed = {name: placer.placed(name, raw, materials) for name, raw in tables["objects"].items()}
     if not placed and not any(problem.table == "objects" for problem in report.problems):
@@ -217,6 +218,7 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
         "lights": lights,
         "camera": camera,
         "atmosphere": atmosphere,
+        "medium": medium,
     }
     images = {f"image:{name}": image for name, image in resolver.all_images().items()}
     arrays = _arrays(arrangement) | images

@@ -20,7 +20,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from illuminant.object_schema import Box, Disc, MeshTable, Object, Rectangle, Rotation, Sphere
+from illuminant.object_schema import Box, Disc, MeshTable, Move, Object, Rectangle, Rotation, Sphere
 from illuminant.quantities import QUANTITIES
 from illuminant.spectrum_schema import SpectrumTable, SpectrumValue
 from illuminant.table import Crop, Fraction, Number, Positive, Range, Size, Table, Vector, key
@@ -38,6 +38,7 @@ __all__ = [
     "MAX_PIXELS",
     "Box",
     "Camera",
+    "CameraMove",
     "Coated",
     "Conductor",
     "Dielectric",
@@ -47,7 +48,9 @@ __all__ = [
     "Emitter",
     "Environment",
     "Filter",
+    "Medium",
     "MeshTable",
+    "Move",
     "Named",
     "Object",
     "Point",
@@ -86,6 +89,16 @@ class Quantities(Table):
     radiance_scale: float | None = quantity("radiance_scale", "1.0")
 
 
+class CameraMove(Table):
+    """Where a camera is at the end of the time over which things move; what is not stated stays."""
+
+    eye: Vector | None = key("position of the eye, in length units", "[0.1, 1.0, 4.0]", None)
+    target: Vector | None = key(
+        "a point in the middle of the image, in length units", "[0.1, 1.0, 0.0]", None
+    )
+    up: Vector | None = key("direction that is up in the image", "[0.0, 1.0, 0.0]", None)
+
+
 class Camera(Table):
     """A perspective camera (book 1.1): the image plane is perpendicular to the direction of view."""
 
@@ -105,13 +118,40 @@ class Camera(Table):
         "[100, 50, 300, 200]",
         None,
     )
+    focal_length_mm: Positive | None = key(
+        "focal length of a thin lens, in millimetres (always), with `f_number`; default a pinhole: all is sharp",
+        "50.0",
+        None,
+    )
+    f_number: Positive | None = key("focal length over the diameter of the aperture", "2.8", None)
+    focus_distance: Positive | None = key(
+        "distance of what is sharp, along the direction of view; default that of the target", "3.0", None
+    )
+    blades: Annotated[int, Field(ge=3, le=64)] | None = key(
+        "blades of the aperture, a regular polygon; default a circle", "7", None
+    )
+    blades_turned: float | None = key("how far the blades are turned, in degrees", "10.0", None)
+    shutter: (
+        Annotated[list[Annotated[float, Field(ge=0, le=1)]], Field(min_length=2, max_length=2)] | None
+    ) = key(
+        "when the shutter opens and closes, as fractions of the time over which things move; default all of it",
+        "[0.0, 0.5]",
+        None,
+    )
+    moves_to: CameraMove | None = key(
+        "where the camera is at the end of that time", "{ eye = [0.1, 1.0, 4.0] }", None
+    )
 
 
 class Filter(Table):
     """The reconstruction filter of the film."""
 
-    kind: Literal["gaussian", "box", "tent"] = key("shape of the filter", '"gaussian"')
-    radius: Annotated[float, Field(gt=0, le=16)] = key("radius, in pixels", "1.5")
+    kind: Literal["gaussian", "box", "tent", "mitchell", "blackman-harris"] = key(
+        "shape of the filter", '"gaussian"'
+    )
+    radius: Annotated[float, Field(gt=0, le=16)] | None = key(
+        "radius, in pixels; default that of the kind", "1.5", None
+    )
 
 
 class Render(Table):
@@ -125,8 +165,17 @@ class Render(Table):
         "longest path in segments: 1 shows lamps only, 2 direct light; default no limit", "16", None
     )
     seed: Annotated[int, Field(ge=0, lt=2**63)] | None = key("seed of the random numbers", "1", None)
+    sampler: Literal["sobol-owen", "random", "stratified", "jittered", "poisson-disk"] | None = key(
+        "which random numbers", '"sobol-owen"', None
+    )
+    threshold: Annotated[float, Field(ge=0, lt=1)] | None = key(
+        "weight below which `raytrace` and `distributed` follow a ray no more", "0.002", None
+    )
+    light_centres: Annotated[str, Field(pattern=r"^(jittered|random|fixed:[1-9]\d{0,3})$")] | None = key(
+        "where `raytrace` and `distributed` ask lamps that have an area", '"jittered"', None
+    )
     ambient: Annotated[float, Field(ge=0, le=10)] | None = key(
-        "ambient light of scanline techniques, as a fraction of what lamps would make of a white diffuser in the "
+        "ambient light of all techniques but `path`, as a fraction of what lamps would make of a white diffuser in the "
         "middle of the scene",
         "0.15",
         None,
@@ -248,6 +297,11 @@ class Dielectric(Table):
     dispersion: bool = key(
         "whether n changes with wavelength (false: its value at 589.3 nm is used)", "false", True
     )
+    priority: Annotated[int, Field(ge=0, le=255)] = key(
+        "of bodies that overlap, that of the highest priority is there, so that what touches needs no common boundary",
+        "1",
+        0,
+    )
 
 
 class Coated(Table):
@@ -355,6 +409,13 @@ class Point(Quantities):
         "[[0.0, 100.0], [30.0, 80.0], [60.0, 10.0], [90.0, 0.0]]",
         None,
     )
+    photometry: str | None = key(
+        "IES (LM-63, types A, B and C) or EULUMDAT (.ldt) file of the luminaire, which also says how much light it "
+        "gives unless a quantity does; `axis` is its γ = 0, and C = 0 lies along x (along z for an axis along x)",
+        '"downlight.ies"',
+        None,
+    )
+    turn_deg: Number = key("turn of the luminaire about `axis`, in degrees, right-handed", "90.0", 0.0)
     spectrum: SpectrumValue = key("spectrum of the light", '"LED-B3"')
 
 
@@ -436,6 +497,37 @@ class Distance(Table):
     unit: Positive = key("distance at which nothing is lost or gained, in length units", "3.0", 1.0)
 
 
+class Medium(Table):
+    """What is in the air: particles and gas that absorb and scatter light, everywhere or in a box.
+
+    `path` follows the light in it, with all scattering; bodies of glass keep it out. Other techniques do not see it.
+    """
+
+    absorption: SpectrumValue | None = key("absorption coefficient, in 1/m (always)", "0.02", None)
+    scattering: SpectrumValue | None = key(
+        "scattering coefficient, in 1/m (always)",
+        "{ wavelengths_nm = [380.0, 780.0], values = [0.4, 0.03] }",
+        None,
+    )
+    phase: Literal["henyey-greenberg", "rayleigh"] = key(
+        "how scattered light is spread: by its mean cosine, or as by particles much smaller than a wavelength",
+        '"rayleigh"',
+        "henyey-greenberg",
+    )
+    mean_cosine: Annotated[float, Field(gt=-1, lt=1)] | None = key(
+        "of `henyey-greenberg`: above 0 forwards, 0 evenly", "0.6", None
+    )
+    box: Box | None = key(
+        "where it is; default everywhere", "{ min = [-2.0, 0.0, -2.0], max = [2.0, 3.0, 2.0] }", None
+    )
+    density: Any = key(
+        "what both coefficients are multiplied by over the box: a NumPy file (.npy) of a number for each cell along "
+        "x, y and z",
+        '"smoke.npy"',
+        None,
+    )
+
+
 MaterialValue = Diffuse | Conductor | Dielectric | Coated | Named | ThinFilter | Emitter
 LightValue = Point | Spot | Directional | Environment
 
@@ -474,3 +566,4 @@ class SceneFile(Table):
     objects: dict[str, Object] = key("objects by name", "", {})
     lights: dict[str, LightValue] = key("lights by name", "", {})
     atmosphere: Fog | Distance | None = key("what becomes of light on its way to the eye", "", None)
+    medium: Medium | None = key("what is in the air", "", None)

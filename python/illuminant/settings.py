@@ -40,6 +40,9 @@ LAYERS = ("depth", "normal", "albedo", "samples", "terms")
 SCANLINE = ("constant", "gouraud", "phong")
 """The techniques that scan polygons."""
 
+RAY_TREES = ("raytrace", "distributed")
+"""The techniques that follow trees of rays."""
+
 INTERPOLATIONS = ("object", "screen")
 SHADINGS = ("full", "duff", "bishop-weimer")
 
@@ -49,9 +52,15 @@ INFINITE = ("eye", "lights")
 SHADOW_MAP = 1024
 """Texels across a shadow map of which no size is stated."""
 
-FILTERS = ("gaussian", "box", "tent")
+SAMPLERS = ("sobol-owen", "random", "stratified", "jittered", "poisson-disk")
+
+RADII = {"gaussian": 1.5, "box": 0.5, "tent": 1.0, "mitchell": 2.0, "blackman-harris": 1.5}
+"""The reconstruction filters, with the radius in pixels that each has if none is stated."""
 
 DEFAULT_SAMPLES = 64
+
+UNKNOWN_SAMPLES = 64
+"""Over so many samples a pixel samplers spread their numbers while nobody knows how many there will be."""
 
 _UNITS = {"": 1.0, "s": 1.0, "m": 60.0, "min": 60.0, "h": 3600.0}
 
@@ -75,7 +84,10 @@ class Settings:
         lamps: whether there is a layer for each lamp.
         time: seconds after which to end, or None.
         error: relative standard error at which to end (0.01 is 1 %), or None.
-        ambient: ambient light of the scanline techniques, as a fraction of what the lamps would make of a white
+        sampler: which random numbers: `sobol-owen`, `random`, `stratified`, `jittered` or `poisson-disk`.
+        threshold: weight below which ray tracing follows a ray no more.
+        light_centres: where ray tracing asks lamps that have an area: `jittered`, `random`, or `fixed:N`.
+        ambient: ambient light of all techniques but `path`, as a fraction of what the lamps would make of a white
             diffuser in the middle of the scene.
         interpolation: where they interpolate: `object` or `screen`.
         shading: how `phong` finds the illumination at a pixel: `full`, `duff` or `bishop-weimer`.
@@ -99,6 +111,9 @@ class Settings:
     lamps: bool = False
     time: float | None = None
     error: float | None = None
+    sampler: str = "sobol-owen"
+    threshold: float = 0.002
+    light_centres: str = "jittered"
     ambient: float = 0.15
     interpolation: str = "object"
     shading: str = "full"
@@ -119,6 +134,7 @@ class Settings:
         layers += ["spectra"] * self.keep_spectra + ["lamps"] * self.lamps
         kind, radius = self.filter
         shadows, _, texels = self.shadows.partition(":")
+        centres, _, count = self.light_centres.partition(":")
         return json.dumps(
             {
                 "technique": self.technique,
@@ -130,6 +146,10 @@ class Settings:
                 "filter": {"kind": kind, "radius": radius},
                 "layers": layers,
                 "replicates": self.replicates,
+                "sampler": self.sampler,
+                "strata": min(self.samples or UNKNOWN_SAMPLES, 65536),
+                "threshold": self.threshold,
+                "light_centres": {"fixed": int(count)} if count else centres,
                 "ambient": self.ambient,
                 "interpolation": self.interpolation,
                 "shading": self.shading,
@@ -150,10 +170,15 @@ class Settings:
             "depth": self.depth,
             "seed": self.seed,
             "filter": f"{kind}:{radius:g}",
+            "sampler": self.sampler,
             "replicates": self.replicates,
             **({} if self.error is None else {"error": self.error}),
             **(self._scanline() if self.technique in SCANLINE else {}),
+            **(self._ray_trees() if self.technique in RAY_TREES else {}),
         }
+
+    def _ray_trees(self) -> dict[str, Any]:
+        return {"ambient": self.ambient, "threshold": self.threshold, "light_centres": self.light_centres}
 
     def _scanline(self) -> dict[str, Any]:
         return {
@@ -198,10 +223,22 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         ("interpolation", INTERPOLATIONS),
         ("shading", SHADINGS),
         ("antialiasing", ANTIALIASINGS),
+        ("sampler", SAMPLERS),
     ):
         if chosen.get(name, known[0]) not in known:
             *others, last = known
             raise UsageError(f"--{name} {chosen[name]}: expected {', '.join(others)} or {last}.")
+    if "threshold" in chosen and not (
+        isinstance(chosen["threshold"], (int, float)) and 0 <= chosen["threshold"] < 1
+    ):
+        raise UsageError(
+            f"--threshold {chosen['threshold']}: expected a weight from 0 to below 1, such as 0.002."
+        )
+    if not re.fullmatch(r"jittered|random|fixed:[1-9]\d{0,3}", str(chosen.get("light_centres", "jittered"))):
+        raise UsageError(
+            f"--light-centres {chosen['light_centres']}: expected jittered, random, or fixed with their number, such "
+            "as fixed:4."
+        )
     if "shadows" in chosen:
         chosen["shadows"] = shadows_of(chosen["shadows"])
     if "infinite" in chosen:
@@ -311,19 +348,24 @@ def filter_of(value: str | Sequence[Any] | Mapping[str, Any]) -> tuple[str, floa
         UsageError: there is no such filter, or the radius is not from above 0 to 16.
 
     Example:
-        >>> filter_of("box"), filter_of("gaussian:2")
-        (('box', 0.5), ('gaussian', 2.0))
+        >>> filter_of("box"), filter_of("gaussian:2"), filter_of("mitchell")
+        (('box', 0.5), ('gaussian', 2.0), ('mitchell', 2.0))
     """
     if isinstance(value, Mapping):
-        value = (value["kind"], value.get("radius", 1.5))
-    kind, _, text = value.partition(":") if isinstance(value, str) else (str(value[0]), ":", str(value[1]))
+        kind, radius = str(value["kind"]), value.get("radius")
+        text = "" if radius is None else str(radius)
+    elif isinstance(value, str):
+        kind, _, text = value.partition(":")
+    else:
+        kind, text = str(value[0]), str(value[1])
     try:
-        radius = float(text) if text else {"box": 0.5, "tent": 1.0}.get(kind, 1.5)
+        radius = float(text) if text else RADII.get(kind, math.nan)
     except ValueError:
         radius = math.nan
-    if kind not in FILTERS or not 0 < radius <= 16:
+    if kind not in RADII or not 0 < radius <= 16:
+        *others, last = RADII
         raise UsageError(
-            f"--filter {kind}{':' if text else ''}{text}: expected gaussian, box or tent, with a radius "
+            f"--filter {kind}{':' if text else ''}{text}: expected {', '.join(others)} or {last}, with a radius "
             "in pixels if you like, such as gaussian:1.5."
         )
     return kind, radius

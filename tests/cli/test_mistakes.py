@@ -87,10 +87,13 @@ LONG = "a" * 5000
         ("render ball.toml --exposure nan", "--exposure nan: expected a positive number."),
         ("render ball.toml --size 0x0", "--size 0x0: expected width and height"),
         ("render ball.toml --threads -1", "--threads -1: expected a whole number from 0"),
-        ("render ball.toml --filter box:nan", "--filter box:nan: expected gaussian, box or tent"),
+        (
+            "render ball.toml --filter box:nan",
+            "--filter box:nan: expected gaussian, box, tent, mitchell or blackman-harris",
+        ),
         (
             "render ball.toml --technique magic",
-            '--technique magic: no technique "magic"; known are constant, gouraud, phong, path.',
+            '--technique magic: no technique "magic"; known are constant, gouraud, phong, raytrace, distributed, path.',
         ),
         (
             "render ball.toml --sampling fitted:0",

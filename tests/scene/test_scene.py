@@ -43,6 +43,7 @@ def test_the_description_is_in_metres_and_has_what_the_core_reads():
         "lights",
         "camera",
         "atmosphere",
+        "medium",
     ]
     assert description["camera"] == {
         "eye": [0.0, 0.0, 3.0],
@@ -51,11 +52,13 @@ def test_the_description_is_in_metres_and_has_what_the_core_reads():
         "field_of_view_deg": 40.0,
         "size": [16, 9],
         "crop": None,
-        "shutter": [0.0, 0.0],
+        "shutter": [0.0, 1.0],
+        "lens": None,
+        "end": None,
     }
     assert description["materials"] == [
-        {"name": "grey", "surface": {"kind": "diffuse", "reflectance": 0}, "coefficients": []},
-        {"name": "lamp", "surface": {"kind": "diffuse", "reflectance": 0}, "coefficients": []},
+        {"name": "grey", "surface": {"kind": "diffuse", "reflectance": 0}, "coefficients": [], "priority": 0},
+        {"name": "lamp", "surface": {"kind": "diffuse", "reflectance": 0}, "coefficients": [], "priority": 0},
     ]
     assert description["objects"][2]["emission"] == {
         "spectrum": 1,

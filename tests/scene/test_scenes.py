@@ -18,13 +18,16 @@ NAMES = [
     "copper-spheres-mapped",
     "cornell",
     "cornell-fl11",
+    "crystal-ball",
     "demo",
     "environment",
     "finishes",
+    "glass-and-copper",
     "metamers",
     "prism",
     "tiles",
     "two-filters",
+    "whitted",
 ]
 
 

@@ -67,10 +67,20 @@ def test_the_manual_has_the_table(repository):
     assert rows == [(p.technique, p.illumination, p.verdict, p.reason) for p in pairs()]
 
 
+WITHOUT_RAYS = ("bouknight", "phong", "blinn", "cook-torrance")
+"""Models that know lamps alone: the same by every technique that evaluates them at every pixel, but for shadows."""
+
+
 def test_no_two_pairs_give_one_image(images):
     kinds = list(images)
     for i, first in enumerate(kinds):
         for second in kinds[i + 1 :]:
+            if first[1] == second[1] in WITHOUT_RAYS and {first[0], second[0]} <= {
+                "phong",
+                "raytrace",
+                "distributed",
+            }:
+                continue
             apart = np.abs(images[first].xyz[..., 1] - images[second].xyz[..., 1]).mean()
             assert apart > 1e-3 * images[first].xyz[..., 1].mean(), (first, second, apart)
 

@@ -69,13 +69,16 @@ SCENES = [
     "copper-spheres.toml",
     "cornell-fl11.toml",
     "cornell.toml",
+    "crystal-ball.toml",
     "demo.toml",
     "environment.toml",
     "finishes.toml",
+    "glass-and-copper.toml",
     "metamers.toml",
     "prism.toml",
     "tiles.toml",
     "two-filters.toml",
+    "whitted.toml",
 ]
 
 

@@ -254,6 +254,25 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
         Components { diffuse, specular }
     }
 
+    fn follows_gloss(&self) -> bool {
+        match self {
+            Self::Diffuse { .. } | Self::Filter { .. } => false,
+            Self::Conductor(conductor) => conductor.is_rough(),
+            Self::Dielectric(dielectric) => dielectric.is_rough(),
+            Self::Coated(_) => true,
+        }
+    }
+
+    fn gloss_ray(&self, at: &Incidence<'_, N>, u: [f32; 3]) -> Option<Scattered<N>> {
+        // Drawn for all that is scattered, and weighed for what the surface itself does.
+        let drawn = self.sample(at, u, None)?;
+        // What is discrete is followed by itself.
+        let pdf = drawn.pdf?;
+        let found = self.components(at, drawn.direction);
+        let weight = found.specular * (drawn.direction.z.abs() / pdf);
+        (!weight.is_zero()).then_some(Scattered { weight, ..drawn })
+    }
+
     fn gloss(&self) -> f32 {
         match self {
             Self::Conductor(conductor) => conductor.gloss(),

@@ -2,7 +2,8 @@
 
 use crate::historical::{Asked, AskedPair, Coefficients, Historical, Side, Terms};
 use crate::model::{
-    Claims, Components, CosineModel, DiscreteLobe, IlluminationModel, Incidence, LobeAxis, Prepare, Scattered,
+    Blurred, Claims, Components, CosineModel, DiscreteLobe, IlluminationModel, Incidence, LobeAxis, Prepare,
+    Scattered,
 };
 use crate::{
     Blinn, Bouknight, CoefficientCurves, CookTorrance, Hall, Illumination, Material, Phong, Samples, Surface,
@@ -14,7 +15,7 @@ use illuminant_optics::distribution::{Distribution, ggx_alpha};
 use illuminant_optics::frame::Frame;
 use illuminant_optics::hemisphere;
 use illuminant_optics::saunderson::internal_reflectance;
-use illuminant_optics::vectors::{dot, half, half_refracted, reflect, refract};
+use illuminant_optics::vectors::{dot, half, half_refracted, reflect, refract, refract_either};
 use illuminant_sampling::{Basis, Lanes, Role};
 use illuminant_spectrum::{Curve, SpectralRange};
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -82,6 +83,8 @@ pub struct Historic<const N: usize> {
     index: f64,
     /// Whether the surface is the border of a body into which rays are bent.
     body: bool,
+    /// Whether the surface blurs what it mirrors: its material is rough, or the scene states how wide the highlight is.
+    rough: bool,
     /// How directions are drawn for the highlight.
     drawn: DrawnLobe,
     /// The brightness of the diffuse term and of the highlight, for the choice between them.
@@ -244,7 +247,10 @@ impl<const N: usize> Historic<N> {
         // H at β from the normal is seen at 2β from the mirror direction.
         let gloss = 2.0 * highlight.distribution.half_angle(highlight.coefficient) as f32;
         let coloured = Coloured::new(material, model, &curves, range, lanes);
-        Self { model, surface, index: curves.index, body, drawn, bright, gloss, coloured }
+        let mut stated = material.overrides.iter().filter(|over| over.model.is_none_or(|m| m == model));
+        let rough =
+            material.slope() > 0.0 || stated.any(|over| over.beta.is_some() || over.coefficient.is_some());
+        Self { model, surface, index: curves.index, body, rough, drawn, bright, gloss, coloured }
     }
 
     /// The media and the view, flipped to the side of the normal unless the surface bounds a body, and how it was flipped.
@@ -417,6 +423,31 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
             Some(DiscreteLobe { direction, weight: ray.weight.lanes, transmitted: i == 1 })
         };
         asked.into_iter().enumerate().filter_map(lobe).collect()
+    }
+
+    fn blurred(&self, at: &Incidence<'_, N>, lobe: &DiscreteLobe<N>, u: [f32; 2]) -> Blurred {
+        if !self.rough || (lobe.transmitted && !self.body) {
+            return Blurred::Sharp;
+        }
+        let (side, v, flip) = self.place(at);
+        let facets = match self.drawn {
+            // The facets whose highlight is as wide.
+            DrawnLobe::Mirror(n) => DrawnLobe::Power(4.0 * n),
+            other => other,
+        };
+        let h = facets.draw(u.map(f64::from));
+        if dot(v, h) * v[2] <= 0.0 {
+            return Blurred::Lost;
+        }
+        let direction = if lobe.transmitted {
+            refract_either(v, h, side.outside, side.inside)
+        } else {
+            Some(reflect(v, h))
+        };
+        match direction {
+            Some(l) if (l[2] * v[2] < 0.0) == lobe.transmitted => Blurred::To(vec3(l) * flip),
+            _ => Blurred::Lost,
+        }
     }
 
     fn see_through(&self, at: &Incidence<'_, N>) -> Lanes<N> {

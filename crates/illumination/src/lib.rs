@@ -47,8 +47,8 @@ pub use historic::Historic;
 pub use historical::{Asked, AskedPair, Coefficients, Historical, Side, Terms};
 pub use material::{Film, Flakes, Material, REPRESENTATIVE_NM, Surface};
 pub use model::{
-    Claims, Components, CosineModel, DiscreteLobe, Hero, IlluminationModel, Incidence, Index, LobeAxis,
-    Prepare, Scattered,
+    Blurred, Claims, Components, CosineModel, DiscreteLobe, Hero, IlluminationModel, Incidence, Index,
+    LobeAxis, Prepare, Scattered,
 };
 pub use phong::Phong;
 pub use samples::{Samples, Weighed};

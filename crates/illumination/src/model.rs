@@ -79,6 +79,17 @@ pub struct DiscreteLobe<const N: usize> {
     pub transmitted: bool,
 }
 
+/// A direction of a discrete lobe of a surface that may be rough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Blurred {
+    /// The lobe's own.
+    Sharp,
+    /// That of a facet; unit, local.
+    To(Vec3),
+    /// The facet is turned away, or sends light back into the surface: nothing comes from it.
+    Lost,
+}
+
 /// The parts of a bidirectional function, 1/sr.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Components<const N: usize> {
@@ -134,6 +145,24 @@ pub trait IlluminationModel<const N: usize>: Send + Sync {
 
     /// The discrete lobes: mirror direction and smooth refraction. Empty for rough surfaces.
     fn discrete_lobes(&self, at: &Incidence<'_, N>) -> Vec<DiscreteLobe<N>>;
+
+    /// The direction of a discrete lobe where a rough surface blurs it (Cook, Porter and Carpenter 1984): mirrored or bent by a facet that is
+    /// drawn as the highlight's distribution says, from two numbers in [0, 1).
+    fn blurred(&self, _at: &Incidence<'_, N>, _lobe: &DiscreteLobe<N>, _u: [f32; 2]) -> Blurred {
+        Blurred::Sharp
+    }
+
+    /// Whether what the surface itself reflects of other surfaces is the model's own continuous part, which [`Self::gloss_ray`] follows:
+    /// older models know lamps alone.
+    fn follows_gloss(&self) -> bool {
+        false
+    }
+
+    /// A direction in which the continuous part of what the surface itself reflects or lets through is followed, f_s |cos|/pdf, from
+    /// three numbers in [0, 1); the density is that of [`Self::pdf`].
+    fn gloss_ray(&self, _at: &Incidence<'_, N>, _u: [f32; 3]) -> Option<Scattered<N>> {
+        None
+    }
 
     /// Whether the model has a continuous part at all, so that asking lamps is worth it.
     fn is_continuous(&self) -> bool;

@@ -19,6 +19,7 @@ mod grazing_warp;
 pub mod hemisphere;
 pub mod masking;
 pub mod multiple_scattering;
+pub mod photometric_web;
 pub mod roughness;
 pub mod saunderson;
 pub mod solid_angle;

@@ -163,6 +163,7 @@ impl PyRender {
         dict.set_item("seconds", statistics.elapsed.as_secs_f64())?;
         dict.set_item("samples", statistics.samples)?;
         dict.set_item("spans", statistics.spans)?;
+        dict.set_item("pruned", statistics.pruned)?;
         dict.set_item("rays", statistics.closest + statistics.occlusion)?;
         dict.set_item("closest", statistics.closest)?;
         dict.set_item("occlusion", statistics.occlusion)?;

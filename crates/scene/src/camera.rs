@@ -38,7 +38,60 @@ pub struct Camera {
     pub crop: [u32; 4],
     /// When the shutter opens and closes, as fractions of the motion.
     pub shutter: [f32; 2],
+    /// The lens; without one all is sharp.
+    pub lens: Option<Lens>,
     rays: RayBasis,
+    /// How much of what a ray needs changes over the whole motion.
+    moves: Option<RayBasis>,
+}
+
+/// A thin lens (Cook, Porter and Carpenter 1984; book figure 4.19): of what lies in the focal plane all points of the lens see the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// The radius of the aperture: focal length over twice the f-number.
+    pub radius: f32,
+    /// Distance of the focal plane along the direction of view.
+    pub focus: f32,
+    /// The blades of the aperture: a regular polygon in its circle; 0 for the circle.
+    pub blades: u32,
+    /// How far the blades are turned, radians.
+    pub turn: f32,
+}
+
+impl Lens {
+    /// A point of the aperture, uniform over its area, from two numbers in [0, 1); a mapping that keeps near what is near (Shirley and Chiu
+    /// 1997).
+    ///
+    /// ```
+    /// use illuminant_scene::Lens;
+    /// let lens = Lens { radius: 0.01, focus: 2.0, blades: 6, turn: 0.0 };
+    /// let [x, y] = lens.point([0.3, 0.9]);
+    /// assert!(x.hypot(y) <= 0.01);
+    /// ```
+    #[must_use]
+    pub fn point(&self, u: [f32; 2]) -> [f32; 2] {
+        use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+        if self.blades >= 3 {
+            // One of the triangles about the middle, then a place in it.
+            let place = u[0] * self.blades as f32;
+            let blade = (place as u32).min(self.blades - 1);
+            let (s, t) = ((place - blade as f32).sqrt(), u[1]);
+            let corner = |i: u32| {
+                let (sin, cos) = (self.turn + 2.0 * PI * i as f32 / self.blades as f32).sin_cos();
+                [cos, sin].map(|v| v * self.radius)
+            };
+            let (a, b) = (corner(blade), corner(blade + 1));
+            return std::array::from_fn(|i| s * (a[i] * (1.0 - t) + b[i] * t));
+        }
+        let [x, y] = u.map(|v| 2.0 * v - 1.0);
+        if x == 0.0 && y == 0.0 {
+            return [0.0; 2];
+        }
+        let (r, angle) =
+            if x.abs() > y.abs() { (x, FRAC_PI_4 * (y / x)) } else { (y, FRAC_PI_2 - FRAC_PI_4 * (x / y)) };
+        let (sin, cos) = angle.sin_cos();
+        [cos, sin].map(|v| v * r * self.radius)
+    }
 }
 
 /// What a ray needs, in f32: origin, the direction to the upper left corner, and the steps of a pixel.
@@ -48,6 +101,17 @@ struct RayBasis {
     corner: Vec3,
     dx: Vec3,
     dy: Vec3,
+}
+
+impl RayBasis {
+    fn plus(self, other: &Self, factor: f32) -> Self {
+        Self {
+            origin: self.origin + other.origin * factor,
+            corner: self.corner + other.corner * factor,
+            dx: self.dx + other.dx * factor,
+            dy: self.dy + other.dy * factor,
+        }
+    }
 }
 
 impl Camera {
@@ -91,8 +155,19 @@ impl Camera {
         }
         let up = right.cross(forward);
         let half_width = (field_of_view_deg.to_radians() / 2.0).tan();
-        let mut camera =
-            Self { eye, right, up, forward, half_width, size, crop, shutter, rays: RayBasis::default() };
+        let mut camera = Self {
+            eye,
+            right,
+            up,
+            forward,
+            half_width,
+            size,
+            crop,
+            shutter,
+            lens: None,
+            rays: RayBasis::default(),
+            moves: None,
+        };
         let pixel = 2.0 * half_width / f64::from(w);
         let corner = forward - right * half_width + camera.up * (pixel * f64::from(h) / 2.0);
         camera.rays = RayBasis {
@@ -109,13 +184,40 @@ impl Camera {
     #[inline(always)]
     #[must_use]
     pub fn ray(&self, x: f32, y: f32, u_time: f32) -> Ray {
-        let RayBasis { origin, corner, dx, dy } = self.rays;
         let [open, close] = self.shutter;
-        Ray {
-            origin,
-            direction: (corner + dx * x + dy * y).normalize(),
-            time: open + (close - open) * u_time,
-        }
+        let time = open + (close - open) * u_time;
+        let RayBasis { origin, corner, dx, dy } = match &self.moves {
+            None => self.rays,
+            Some(moves) => self.rays.plus(moves, time),
+        };
+        Ray { origin, direction: (corner + dx * x + dy * y).normalize(), time }
+    }
+
+    /// Whether it moves.
+    #[must_use]
+    pub fn is_moving(&self) -> bool {
+        self.moves.is_some()
+    }
+
+    /// The same camera, which moves to where another one is at the end of the motion: the eye straight on, the image plane with it. All but its
+    /// rays is that of the beginning.
+    #[must_use]
+    pub fn moving_to(mut self, end: &Self) -> Self {
+        self.moves = Some(end.rays.plus(&self.rays, -1.0));
+        self
+    }
+
+    /// The ray through a point of the image and a point of the lens, which two numbers in [0, 1) say: from there to where the ray through the
+    /// middle of the lens meets the focal plane.
+    #[inline]
+    #[must_use]
+    pub fn ray_through_lens(&self, x: f32, y: f32, u_time: f32, u_lens: [f32; 2]) -> Ray {
+        let ray = self.ray(x, y, u_time);
+        let Some(lens) = &self.lens else { return ray };
+        let [right, up] = lens.point(u_lens);
+        let sharp = ray.origin + ray.direction * (lens.focus / ray.direction.dot(self.forward.as_vec3()));
+        let origin = ray.origin + self.right.as_vec3() * right + self.up.as_vec3() * up;
+        Ray { origin, direction: (sharp - origin).normalize(), time: ray.time }
     }
 
     /// The angle across a pixel in the middle of the image, radians.
@@ -207,6 +309,62 @@ mod tests {
             assert!((px - f64::from(x)).abs() < 1e-3 && (py - f64::from(y)).abs() < 1e-3, "{px} {py}");
         }
         assert!(camera.project(camera.eye() - (dvec3(4.0, 0.0, -2.0) - camera.eye())).is_none());
+    }
+
+    #[test]
+    fn all_points_of_a_lens_see_the_focal_plane_at_one_place() {
+        let mut camera = camera(50.0);
+        for blades in [0, 5, 6] {
+            let lens = Lens { radius: 0.2, focus: 4.0, blades, turn: 0.3 };
+            camera.lens = Some(lens);
+            let sharp = camera.ray(40.5, 70.5, 0.0);
+            let forward = camera.forward();
+            let at = |ray: &Ray, w: f32| {
+                let from = (ray.origin - sharp.origin).dot(forward);
+                ray.origin + ray.direction * ((w - from) / ray.direction.dot(forward))
+            };
+            let (mut sum, mut squares) = (Vec3::ZERO, 0.0);
+            // As many columns a blade, so that their means are those of the polygon.
+            for i in 0..3600u32 {
+                let u = [(i % 60) as f32 / 60.0 + 1.0 / 120.0, (i / 60) as f32 / 60.0 + 1.0 / 120.0];
+                let ray = camera.ray_through_lens(40.5, 70.5, 0.0, u);
+                assert!((at(&ray, 4.0) - at(&sharp, 4.0)).length() < 1e-4);
+                // The circle of confusion at twice the distance is as wide as the lens.
+                assert!((at(&ray, 8.0) - at(&sharp, 8.0)).length() < 0.2 * 1.001);
+                sum += ray.origin - sharp.origin;
+                squares += f64::from((ray.origin - sharp.origin).length_squared());
+            }
+            assert!((sum / 3600.0).length() < 1e-4);
+            // The mean square of the distance from the middle: r²/2 of a circle, of a polygon r²(2 + cos 2π/n)/6.
+            let r2 = if blades == 0 {
+                0.5
+            } else {
+                (2.0 + (2.0 * std::f64::consts::PI / f64::from(blades)).cos()) / 6.0
+            };
+            assert!((squares / 3600.0 / (0.04 * r2) - 1.0).abs() < 2e-3, "{blades}");
+        }
+    }
+
+    #[test]
+    fn a_camera_that_moves_is_in_the_middle_half_way() {
+        let at = |x: f64| {
+            let camera = Camera::new(
+                dvec3(x, 0.0, 0.0),
+                dvec3(x, 0.0, -1.0),
+                DVec3::Y,
+                40.0,
+                [8, 8],
+                None,
+                [0.0, 1.0],
+            );
+            camera.unwrap()
+        };
+        let moving = at(0.0).moving_to(&at(2.0));
+        for (u, x) in [(0.0, 0.0), (0.5, 1.0), (1.0, 2.0)] {
+            let (found, expected) = (moving.ray(3.0, 5.0, u), at(x).ray(3.0, 5.0, u));
+            assert!((found.origin - expected.origin).length() < 1e-6);
+            assert!((found.direction - expected.direction).length() < 1e-6);
+        }
     }
 
     #[test]

@@ -26,6 +26,9 @@ pub struct Description {
     pub lights: Vec<LightData>,
     /// The camera.
     pub camera: CameraData,
+    /// What is in the air.
+    #[serde(default)]
+    pub medium: Option<MediumData>,
     /// What becomes of light on its way to the eye.
     #[serde(default)]
     pub atmosphere: Option<AtmosphereData>,
@@ -57,6 +60,9 @@ pub struct MaterialData {
     /// What the historical models are told instead of what they would derive.
     #[serde(default)]
     pub coefficients: Vec<CoefficientsData>,
+    /// Where bodies overlap, that of the highest priority is there.
+    #[serde(default)]
+    pub priority: u8,
 }
 
 /// What one historical model, or all, take instead of the rule by which coefficients follow from a surface; what is absent follows
@@ -368,6 +374,27 @@ pub enum Sides {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
 pub enum LightData {
+    /// A point that shines as a photometric web says.
+    Luminaire {
+        /// The name that messages use.
+        name: String,
+        /// Where.
+        position: [f32; 3],
+        /// Along γ = 0.
+        axis: [f32; 3],
+        /// Towards C = 0, at right angles to the axis as far as it is not.
+        across: [f32; 3],
+        /// The angles C, degrees.
+        planes_deg: Vec<f64>,
+        /// The angles γ, degrees.
+        angles_deg: Vec<f64>,
+        /// The values, plane by plane, to any scale.
+        values: Vec<f64>,
+        /// Index of the curve.
+        spectrum: usize,
+        /// How bright: an intensity is the largest.
+        quantity: Quantity,
+    },
     /// A point.
     Point {
         /// The name that messages use.
@@ -477,6 +504,36 @@ pub enum AtmosphereData {
     },
 }
 
+/// A participating medium. Curves are indices.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MediumData {
+    /// Absorption coefficient, 1/m.
+    #[serde(default)]
+    pub absorption: Option<usize>,
+    /// Scattering coefficient, 1/m.
+    #[serde(default)]
+    pub scattering: Option<usize>,
+    /// How scattered light is spread.
+    pub phase: PhaseData,
+    /// Two corners of a box; absent for everywhere.
+    #[serde(default)]
+    pub bounds: Option<[[f64; 3]; 2]>,
+    /// The name of the image that holds the density over the box, one channel, rows and slices one after the other; and its cells along x, y, z.
+    #[serde(default)]
+    pub density: Option<(String, [usize; 3])>,
+}
+
+/// How scattered light is spread.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PhaseData {
+    /// The mean cosine.
+    HenyeyGreenberg(f64),
+    /// Of small particles.
+    Rayleigh,
+}
+
 /// The camera.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -497,4 +554,38 @@ pub struct CameraData {
     /// Opening and closing, as fractions of the motion.
     #[serde(default)]
     pub shutter: [f32; 2],
+    /// A lens.
+    #[serde(default)]
+    pub lens: Option<LensData>,
+    /// Where it is at the end of the motion; absent for a camera at rest.
+    #[serde(default)]
+    pub end: Option<ViewData>,
+}
+
+/// A place and a direction of view.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ViewData {
+    /// Where the camera is.
+    pub eye: [f64; 3],
+    /// Where it looks.
+    pub target: [f64; 3],
+    /// What is up in the image.
+    pub up: [f64; 3],
+}
+
+/// A thin lens.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LensData {
+    /// Half the diameter of the aperture, m.
+    pub radius: f64,
+    /// Distance of the focal plane along the direction of view, m.
+    pub focus: f64,
+    /// The blades of the aperture; 0 for a circle.
+    #[serde(default)]
+    pub blades: u32,
+    /// How far they are turned, degrees.
+    #[serde(default)]
+    pub turn_deg: f64,
 }

@@ -2,13 +2,15 @@
 
 use crate::environment::EnvironmentImage;
 use crate::geometry::Geometry;
+use crate::light_tree::Extent;
 use crate::surface::{Hit, SurfacePoint};
 use glam::{Vec2, Vec3};
 use illuminant_optics::goniometry::Distribution;
+use illuminant_optics::photometric_web::PhotometricWeb;
 use illuminant_optics::spherical_rectangle::SphericalRectangle;
 use illuminant_optics::spherical_triangle::SphericalTriangle;
 use illuminant_spectrum::Curve;
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 /// A lamp: a name, its absolute spectrum, and its form.
 #[derive(Debug)]
@@ -41,6 +43,15 @@ pub enum LampForm {
         /// How intensity depends on the angle from the axis.
         distribution: Distribution,
     },
+    /// A point that shines as a photometric web says, whose largest value is 1.
+    Photometric {
+        /// Where it is.
+        position: Vec3,
+        /// Unit vectors towards C = 0 and C = 90°, and along γ = 0.
+        frame: [Vec3; 3],
+        /// How intensity depends on direction.
+        web: Box<PhotometricWeb>,
+    },
     /// A point that shines into a cone.
     Spot {
         /// Where it is.
@@ -68,6 +79,11 @@ pub enum LampForm {
 fn spot_falloff(cos: f32, cos_full: f32, cos_end: f32) -> f32 {
     let t = ((cos - cos_end) / (cos_full - cos_end).max(1e-9)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
+}
+
+/// The value of a photometric web in a direction away from its lamp.
+fn web_value(web: &PhotometricWeb, frame: &[Vec3; 3], direction: Vec3) -> f32 {
+    web.value(frame.map(|axis| f64::from(axis.dot(direction)))) as f32
 }
 
 /// An emitting object, in the form in which directions to it are drawn.
@@ -174,6 +190,41 @@ impl SurfaceLamp {
         let center = weighted / (area as f32).max(f32::MIN_POSITIVE);
         let farthest = (0..count).flat_map(corners).map(|p| p.distance(center)).fold(0.0, f32::max);
         Self { object, two_sided, area, distribution: None, center, radius: farthest, outline }
+    }
+
+    /// The box around the surface, over its motion, and the cone around its normals.
+    fn extent(&self, geometry: &Geometry, luminance: f32) -> Extent {
+        let strength = luminance * self.area as f32;
+        let all = |low: Vec3, high: Vec3, axis: Vec3, facing: f32| Extent {
+            low,
+            high,
+            axis,
+            facing,
+            spread: FRAC_PI_2,
+            two_sided: self.two_sided,
+            strength,
+        };
+        if let Outline::Sphere { center, radius } = &self.outline {
+            return all(*center - *radius, *center + *radius, Vec3::Z, PI);
+        }
+        let still = geometry.is_static(self.object);
+        let (mut low, mut high, mut sum) = (Vec3::MAX, Vec3::MIN, Vec3::ZERO);
+        let mut normals = Vec::new();
+        // A body that moves is taken at several moments; it goes straight on between them, so its box grows no further than theirs.
+        for moment in 0..if still { 1 } else { 33 } {
+            let mesh = geometry.world_mesh(self.object, moment as f32 / 32.0);
+            for face in &mesh.indices {
+                let [a, b, c] = face.map(|i| mesh.positions[i as usize]);
+                low = low.min(a).min(b).min(c);
+                high = high.max(a).max(b).max(c);
+                let normal = (b - a).cross(c - a);
+                sum += normal;
+                normals.push(normal.normalize_or_zero());
+            }
+        }
+        let Some(axis) = sum.try_normalize().filter(|_| still) else { return all(low, high, Vec3::Z, PI) };
+        let widest = normals.iter().filter(|n| **n != Vec3::ZERO).map(|n| n.dot(axis)).fold(1.0, f32::min);
+        all(low, high, axis, widest.clamp(-1.0, 1.0).acos())
     }
 
     /// A point of the surface that does not depend on where it is seen from: uniform over the area of what is flat, the centre of a
@@ -435,6 +486,9 @@ impl Lamp {
                 let cos = (from - *position).normalize_or_zero().dot(*axis);
                 point(*position, distribution.value(f64::from(cos)) as f32)
             }
+            LampForm::Photometric { position, frame, web } => {
+                point(*position, web_value(web, frame, (from - *position).normalize_or_zero()))
+            }
             LampForm::Spot { position, axis, cos_full, cos_end } => {
                 let cos = (from - *position).normalize_or_zero().dot(*axis);
                 point(*position, spot_falloff(cos, *cos_full, *cos_end))
@@ -503,6 +557,10 @@ impl Lamp {
                     let cos = d.normalize_or_zero().dot(*axis);
                     distribution.value(f64::from(cos)) as f32 / d.length_squared().max(1e-12)
                 }
+                LampForm::Photometric { position, frame, web } => {
+                    let d = from - *position;
+                    web_value(web, frame, d.normalize_or_zero()) / d.length_squared().max(1e-12)
+                }
                 LampForm::Spot { position, axis, cos_full, cos_end } => {
                     let d = from - *position;
                     spot_falloff(d.normalize_or_zero().dot(*axis), *cos_full, *cos_end)
@@ -514,24 +572,33 @@ impl Lamp {
             }
     }
 
-    /// How much light the lamp sends into a scene of this radius, in lm: by this it is chosen among its fellows.
-    /// Zero for what is met by chance alone.
+    /// Where the lamp is and into which directions it shines, for a lamp of this luminance or intensity; `None` for one without a place.
     #[must_use]
-    pub fn flux(&self, luminous: f64, scene_radius: f64) -> f64 {
-        use std::f64::consts::PI;
-        let section = PI * scene_radius * scene_radius;
-        luminous
-            * match &self.form {
-                LampForm::Surface(surface) => PI * surface.area * if surface.two_sided { 2.0 } else { 1.0 },
-                LampForm::Point { .. } => 4.0 * PI,
-                LampForm::Luminaire { distribution, .. } => distribution.flux(),
-                LampForm::Spot { cos_full, cos_end, .. } => {
-                    spot_solid_angle(f64::from(*cos_full), f64::from(*cos_end))
-                }
-                LampForm::Parallel { .. } => section,
-                LampForm::Uniform => 0.0,
-                LampForm::Image(image) => image.integral() * section,
+    pub fn extent(&self, geometry: &Geometry, luminous: f32) -> Option<Extent> {
+        let at = |position: Vec3, axis: Vec3, facing: f32, spread: f32, factor: f32| Extent {
+            low: position,
+            high: position,
+            axis,
+            facing,
+            spread,
+            two_sided: false,
+            strength: luminous * factor,
+        };
+        match &self.form {
+            LampForm::Surface(surface) => Some(surface.extent(geometry, luminous)),
+            LampForm::Point { position } => Some(at(*position, Vec3::Z, PI, PI, 1.0)),
+            LampForm::Luminaire { position, axis, distribution } => {
+                let mean = distribution.flux() as f32 / (4.0 * PI);
+                Some(at(*position, *axis, PI, PI, mean))
             }
+            LampForm::Photometric { position, web, .. } => {
+                Some(at(*position, Vec3::Z, PI, PI, web.flux() as f32 / (4.0 * PI)))
+            }
+            LampForm::Spot { position, axis, cos_end, .. } => {
+                Some(at(*position, *axis, 0.0, cos_end.clamp(-1.0, 1.0).acos(), 1.0))
+            }
+            LampForm::Parallel { .. } | LampForm::Uniform | LampForm::Image(_) => None,
+        }
     }
 }
 

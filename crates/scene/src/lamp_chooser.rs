@@ -1,6 +1,8 @@
 //! Which lamp a point asks.
 
-use crate::Lamp;
+use crate::geometry::Geometry;
+use crate::light_tree::LightTree;
+use crate::{Lamp, LampForm};
 use glam::Vec3;
 
 /// Chooses a lamp for a point: a function of the point and its normal, so that better choices can take its place.
@@ -15,17 +17,21 @@ pub trait LampChooser: Send + Sync {
 /// Up to so many lamps each is weighed for each point.
 const WEIGHED: usize = 32;
 
-/// The chooser for these lamps, whose spectra have these luminances (intensities, illuminances), in a scene of this
-/// radius: by expected illuminance where they are few, by flux where they are many.
+/// The chooser for these lamps, whose spectra have these luminances (intensities, illuminances): by expected illuminance, of each where
+/// they are few, of groups in a [`LightTree`] where they are many.
 #[must_use]
-pub fn chooser(lamps: &[Lamp], luminous: &[f64], scene_radius: f64) -> Box<dyn LampChooser> {
-    let fluxes: Vec<f64> = lamps.iter().zip(luminous).map(|(lamp, &l)| lamp.flux(l, scene_radius)).collect();
+pub fn chooser(geometry: &Geometry, lamps: &[Lamp], luminous: &[f64]) -> Box<dyn LampChooser> {
+    let luminous: Vec<f32> = luminous.iter().map(|&l| l as f32).collect();
     match lamps.len() {
-        1 => Box::new(TheOnly { asked: fluxes[0] > 0.0 }),
-        n if n <= WEIGHED => {
-            Box::new(ByIlluminance { luminous: luminous.iter().map(|&l| l as f32).collect() })
+        1 => Box::new(TheOnly { asked: luminous[0] > 0.0 && !matches!(lamps[0].form, LampForm::Uniform) }),
+        n if n <= WEIGHED => Box::new(ByIlluminance { luminous }),
+        _ => {
+            let of_each = || lamps.iter().zip(&luminous);
+            let extents: Vec<_> = of_each().map(|(lamp, &l)| lamp.extent(geometry, l)).collect();
+            let anywhere: Vec<f32> =
+                of_each().map(|(lamp, &l)| lamp.expected_illuminance(l, Vec3::ZERO)).collect();
+            Box::new(LightTree::new(&extents, &anywhere))
         }
-        _ => Box::new(ByFlux::new(&fluxes)),
     }
 }
 
@@ -91,51 +97,10 @@ impl LampChooser for ByIlluminance {
     }
 }
 
-/// In proportion to luminous flux, wherever the point is.
-#[derive(Clone, Debug, Default)]
-struct ByFlux {
-    sums: Vec<f32>,
-    probabilities: Vec<f32>,
-}
-
-impl ByFlux {
-    /// A chooser for lamps of these fluxes; a lamp of flux 0 is never chosen.
-    fn new(fluxes: &[f64]) -> Self {
-        let total: f64 = fluxes.iter().sum();
-        if !(total > 0.0) {
-            return Self { sums: Vec::new(), probabilities: vec![0.0; fluxes.len()] };
-        }
-        let mut sum = 0.0f64;
-        let sums: Vec<f32> = fluxes
-            .iter()
-            .map(|f| {
-                sum += f / total;
-                sum as f32
-            })
-            .collect();
-        // The steps of the sums, as they are in f32: so that chance and probability agree to the last bit.
-        let step = |i: usize| sums[i] - if i == 0 { 0.0 } else { sums[i - 1] };
-        let probabilities = (0..sums.len()).map(step).collect();
-        Self { sums, probabilities }
-    }
-}
-
-impl LampChooser for ByFlux {
-    fn choose(&self, _lamps: &[Lamp], _point: Vec3, _normal: Vec3, u: f32) -> Option<(usize, f32)> {
-        let lamp = self.sums.partition_point(|&s| s <= u);
-        let probability = *self.probabilities.get(lamp)?;
-        (probability > 0.0).then_some((lamp, probability))
-    }
-
-    fn probability(&self, _lamps: &[Lamp], _point: Vec3, _normal: Vec3, lamp: usize) -> f32 {
-        self.probabilities[lamp]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::LampForm;
+    use crate::{Motion, Placement, Shape};
     use illuminant_spectrum::Curve;
 
     fn lamps(n: usize) -> Vec<Lamp> {
@@ -149,10 +114,14 @@ mod tests {
 
     #[test]
     fn chance_follows_probability() {
+        let ball = Shape::Sphere { center: Vec3::ZERO, radius: 1.0, turn: glam::Mat3::IDENTITY };
+        let still = Motion::new(vec![glam::Affine3A::IDENTITY]).unwrap();
+        let placement = Placement { shape: 0, motion: still };
+        let geometry = Geometry::new(vec![ball], vec![placement], 1).unwrap();
         for n in [1, 5, 40] {
             let lamps = lamps(n);
             let luminous: Vec<f64> = (0..n).map(|i| if i == 2 { 0.0 } else { 1.0 + i as f64 }).collect();
-            let chooser = chooser(&lamps, &luminous, 10.0);
+            let chooser = chooser(&geometry, &lamps, &luminous);
             let point = Vec3::new(0.5, 0.2, 0.0);
             let mut found = vec![0u32; n];
             let trials = 20_000;

@@ -2,20 +2,22 @@
 
 use crate::coefficients::overrides;
 use crate::description::{
-    AtmosphereData, CurveData, Description, DistributionData, FinishData, LightData, MaterialData, ShapeData,
-    Sides, SurfaceData, UpAxis,
+    AtmosphereData, CurveData, Description, DistributionData, FinishData, LightData, MaterialData, PhaseData,
+    ShapeData, Sides, SurfaceData, UpAxis,
 };
 use crate::environment::EnvironmentImage;
 use crate::lamp::{Lamp, LampForm, SurfaceLamp, spot_solid_angle};
 use crate::lamp_chooser::{LampChooser, chooser};
+use crate::medium::{Density, Medium, Phase};
 use crate::photometry::{Source, absolute_spectrum};
 use crate::skin::{Skin, Textures};
-use crate::{Camera, Geometry};
+use crate::{Camera, Geometry, Lens};
 use glam::{DVec3, Mat3, Vec3};
 use illuminant_color::RgbSystem;
 use illuminant_illumination::{Atmosphere, Film, Finish, Flakes, Material, Surface};
 use illuminant_optics::facets::Shape;
 use illuminant_optics::goniometry::Distribution;
+use illuminant_optics::photometric_web::PhotometricWeb;
 use illuminant_spectrum::{Curve, Observer, SpectralRange};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -57,6 +59,8 @@ pub struct Scene {
     pub range: SpectralRange,
     /// What surfaces are made of.
     pub materials: Vec<Material>,
+    /// Where bodies overlap, that of the material of the highest priority is there: one for each material.
+    pub priorities: Vec<u8>,
     /// What images say of each material.
     pub skins: Vec<Skin>,
     /// What is where.
@@ -71,6 +75,8 @@ pub struct Scene {
     pub camera: Camera,
     /// What becomes of light on its way to the eye, and the radiance of the fog.
     pub atmosphere: (Atmosphere, Curve),
+    /// What is in the air, if anything.
+    pub medium: Option<Medium>,
 }
 
 impl Scene {
@@ -127,20 +133,23 @@ impl Scene {
         for light in &description.lights {
             lamps.push(self::lamp(light, &curves, images, range)?);
         }
-        let camera = camera(description)?;
+        let mut camera = camera(description)?;
+        if !camera.is_moving() && (0..objects.len()).all(|object| geometry.is_static(object)) {
+            // Time would be one more random number for nothing.
+            camera.shutter = [camera.shutter[0]; 2];
+        }
         let atmosphere = atmosphere(description, &curves, range)?;
-        let (low, high) = geometry.bounds();
-        let eye = camera.eye().as_vec3();
-        let radius = f64::from((high.max(eye) - low.min(eye)).length() / 2.0).max(1e-6);
+        let medium = medium(description, &curves, images, range)?;
         let observer = Observer::cie_1931_2deg();
         let luminous: Vec<f64> = lamps.iter().map(|lamp| observer.luminance(&lamp.spectrum, range)).collect();
         let around = |l: &Lamp| matches!(l.form, LampForm::Uniform | LampForm::Image(_));
         let surroundings = (0..lamps.len()).filter(|&i| around(&lamps[i])).collect();
-        let chooser = chooser(&lamps, &luminous, radius);
+        let chooser = chooser(&geometry, &lamps, &luminous);
         Ok(Self {
             geometry,
             range,
             materials,
+            priorities: description.materials.iter().map(|m| m.priority).collect(),
             skins,
             objects,
             lamps,
@@ -148,6 +157,7 @@ impl Scene {
             surroundings,
             camera,
             atmosphere,
+            medium,
         })
     }
 
@@ -160,7 +170,7 @@ impl Scene {
     /// Whether any ray of a coarse grid over the image meets a surface or surroundings.
     #[must_use]
     pub fn sees_anything(&self) -> bool {
-        if !self.surroundings.is_empty() {
+        if !self.surroundings.is_empty() || self.medium.is_some() {
             return true;
         }
         let [x0, y0, x1, y1] = self.camera.crop.map(|v| v as f32);
@@ -361,6 +371,31 @@ fn lamp(
         Ok(Lamp { name: name.into(), spectrum, form })
     };
     match data {
+        LightData::Luminaire {
+            name,
+            position,
+            axis,
+            across,
+            planes_deg,
+            angles_deg,
+            values,
+            spectrum,
+            quantity,
+        } => {
+            let place = format!("lights.{name}");
+            let axis = unit(&place, "axis", *axis)?;
+            let across = Vec3::from(*across);
+            let x = (across - axis * across.dot(axis)).try_normalize();
+            let x = x.ok_or_else(|| error(&place, "the direction of C = 0 must not be along the axis"))?;
+            let web = PhotometricWeb::new(planes_deg.clone(), angles_deg.clone(), values.clone());
+            let web = web.map_err(|problem| error(&place, problem))?;
+            let largest = web.largest();
+            let web = web.over(largest);
+            let source = Source::Point { solid_angle: web.flux() };
+            let frame = [x, axis.cross(x), axis];
+            let form = LampForm::Photometric { position: Vec3::from(*position), frame, web: Box::new(web) };
+            finish(name, *spectrum, *quantity, source, form)
+        }
         LightData::Point { name, position, axis, distribution: Some(data), spectrum, quantity } => {
             let place = format!("lights.{name}");
             let Some(mut distribution) = distribution(Some(data), &place)? else {
@@ -485,9 +520,79 @@ fn atmosphere(
     }
 }
 
+fn medium(
+    description: &Description,
+    curves: &[Curve],
+    images: &HashMap<String, ImageData>,
+    range: SpectralRange,
+) -> Result<Option<Medium>, SceneError> {
+    let Some(data) = &description.medium else { return Ok(None) };
+    let place = "medium";
+    let coefficient = |index: Option<usize>| {
+        let curve = match index {
+            Some(index) => get(curves, index, place)?.clone(),
+            None => Curve::constant(0.0),
+        };
+        let (low, high) = curve.extent(range);
+        if low >= 0.0 && high.is_finite() {
+            Ok(curve)
+        } else {
+            Err(error(place, "coefficients must be finite and not negative"))
+        }
+    };
+    let phase = match data.phase {
+        PhaseData::HenyeyGreenberg(g) if g > -1.0 && g < 1.0 => Phase::HenyeyGreenberg(g as f32),
+        PhaseData::HenyeyGreenberg(g) => {
+            return Err(error(place, format!("the mean cosine must lie between -1 and 1, not {g}")));
+        }
+        PhaseData::Rayleigh => Phase::Rayleigh,
+    };
+    let bounds = data.bounds.map(|corners| corners.map(|c| DVec3::from(c).as_vec3()));
+    if bounds.is_some_and(|[low, high]| !(low.is_finite() && high.is_finite() && low.cmplt(high).all())) {
+        return Err(error(place, "the box must be finite and have an inside"));
+    }
+    let density = match &data.density {
+        None => None,
+        Some(_) if bounds.is_none() => return Err(error(place, "a density needs a box")),
+        Some((name, size)) => {
+            let image =
+                images.get(name).ok_or_else(|| error(place, format!("there is no image {name:?}")))?;
+            let density = Density::new(*size, image.2.chunks_exact(3).map(|texel| texel[0]).collect());
+            let problem =
+                "a density must have as many cells as its size says, finite, not negative, and not all 0";
+            Some(density.ok_or_else(|| error(place, problem))?)
+        }
+    };
+    let (absorption, scattering) = (coefficient(data.absorption)?, coefficient(data.scattering)?);
+    Ok(Some(Medium { absorption, scattering, phase, bounds, density }))
+}
+
 fn camera(description: &Description) -> Result<Camera, SceneError> {
     let c = &description.camera;
     let [eye, target, up] = [c.eye, c.target, c.up].map(DVec3::from);
-    Camera::new(eye, target, up, c.field_of_view_deg, c.size, c.crop, c.shutter)
-        .map_err(|e| error("camera", e.to_string().trim_start_matches("camera: ")))
+    let mut camera = Camera::new(eye, target, up, c.field_of_view_deg, c.size, c.crop, c.shutter)
+        .map_err(|e| error("camera", e.to_string().trim_start_matches("camera: ")))?;
+    if let Some(end) = &c.end {
+        let [eye, target, up] = [end.eye, end.target, end.up].map(DVec3::from);
+        let last = Camera::new(eye, target, up, c.field_of_view_deg, c.size, c.crop, c.shutter)
+            .map_err(|e| error("camera", format!("at the end of its motion: {e}")))?;
+        camera = camera.moving_to(&last);
+    }
+    if let Some(lens) = &c.lens {
+        let sound =
+            lens.radius >= 0.0 && lens.radius.is_finite() && lens.focus > 0.0 && lens.focus.is_finite();
+        if !sound || !lens.turn_deg.is_finite() || lens.blades > 64 {
+            return Err(error(
+                "camera",
+                "a lens has a radius of 0 or more, a focus above 0 and at most 64 blades",
+            ));
+        }
+        camera.lens = Some(Lens {
+            radius: lens.radius as f32,
+            focus: lens.focus as f32,
+            blades: lens.blades,
+            turn: lens.turn_deg.to_radians() as f32,
+        });
+    }
+    Ok(camera)
 }

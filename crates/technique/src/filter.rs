@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// A filter around the centre of a pixel, the product of one function of x and the same of y.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Filter {
     /// Constant within `radius` pixels.
     Box {
@@ -24,6 +24,18 @@ pub enum Filter {
         #[serde(default = "one_and_a_half")]
         radius: f32,
     },
+    /// The cubic of Mitchell and Netravali (1988) with B = C = ⅓, over `radius` = 2 pixels if it is theirs. It is negative in places.
+    Mitchell {
+        /// Half-width, pixels.
+        #[serde(default = "two")]
+        radius: f32,
+    },
+    /// The window of four cosines of Blackman and Harris (1978).
+    BlackmanHarris {
+        /// Half-width, pixels.
+        #[serde(default = "one_and_a_half")]
+        radius: f32,
+    },
 }
 
 fn half() -> f32 {
@@ -32,6 +44,10 @@ fn half() -> f32 {
 
 fn one() -> f32 {
     1.0
+}
+
+fn two() -> f32 {
+    2.0
 }
 
 fn one_and_a_half() -> f32 {
@@ -49,7 +65,11 @@ impl Filter {
     #[must_use]
     pub fn radius(&self) -> f32 {
         match self {
-            Self::Box { radius } | Self::Tent { radius } | Self::Gaussian { radius } => *radius,
+            Self::Box { radius }
+            | Self::Tent { radius }
+            | Self::Gaussian { radius }
+            | Self::Mitchell { radius }
+            | Self::BlackmanHarris { radius } => *radius,
         }
     }
 
@@ -62,14 +82,32 @@ impl Filter {
                 let sigma = r / 3.0;
                 (-0.5 * (x / sigma).powi(2)).exp()
             }
+            Self::Mitchell { .. } => {
+                let x = (2.0 * x / r).abs();
+                if x < 1.0 {
+                    (7.0 * x.powi(3) - 12.0 * x.powi(2) + 16.0 / 3.0) / 6.0
+                } else {
+                    (-7.0 / 3.0 * x.powi(3) + 12.0 * x.powi(2) - 20.0 * x + 32.0 / 3.0) / 6.0
+                }
+            }
+            Self::BlackmanHarris { .. } => {
+                let t = std::f64::consts::PI * (x / r + 1.0);
+                0.35875 - 0.48829 * t.cos() + 0.14128 * (2.0 * t).cos() - 0.01168 * (3.0 * t).cos()
+            }
         }
     }
 }
 
 /// A filter's inverse distribution, tabulated.
+///
+/// Offsets are drawn by |f|. Where f is negative a sample counts −1, and all are scaled so that the mean weight is 1.
 #[derive(Clone, Debug)]
 pub struct FilterSampler {
     offsets: Vec<f32>,
+    /// Where f changes its sign: it is negative beyond.
+    sign_change: f32,
+    /// ∫|f| over ∫f.
+    scale: f32,
 }
 
 impl FilterSampler {
@@ -82,8 +120,11 @@ impl FilterSampler {
         let radius = f64::from(filter.radius());
         let x = |i: usize| radius * (2.0 * (i as f64) / fine as f64 - 1.0);
         let mut sums = vec![0.0; fine + 1];
+        let mut signed = 0.0;
         for i in 0..fine {
-            sums[i + 1] = sums[i] + filter.value((x(i) + x(i + 1)) / 2.0);
+            let value = filter.value((x(i) + x(i + 1)) / 2.0);
+            sums[i + 1] = sums[i] + value.abs();
+            signed += value;
         }
         let total = sums[fine];
         let offsets = (0..=Self::CELLS).map(|k| {
@@ -93,7 +134,12 @@ impl FilterSampler {
             let t = if width > 0.0 { (wanted - sums[i - 1]) / width } else { 0.0 };
             (x(i - 1) + t.clamp(0.0, 1.0) * (x(i) - x(i - 1))) as f32
         });
-        Self { offsets: offsets.collect() }
+        // The outer cubic is (x − 2)² (8 − 7 x)/18 at a radius of 2.
+        let sign_change = match filter {
+            Filter::Mitchell { radius } => radius * (4.0 / 7.0),
+            _ => f32::MAX,
+        };
+        Self { offsets: offsets.collect(), sign_change, scale: (total / signed) as f32 }
     }
 
     /// An offset from the centre of the pixel, drawn by the filter, from a number in [0, 1).
@@ -104,6 +150,23 @@ impl FilterSampler {
         let i = (position as usize).min(Self::CELLS - 1);
         let t = position - i as f32;
         self.offsets[i] + t * (self.offsets[i + 1] - self.offsets[i])
+    }
+
+    /// Whether all samples count the same.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_positive(&self) -> bool {
+        self.sign_change == f32::MAX
+    }
+
+    /// What a sample at these offsets counts; 1 for filters that are nowhere negative.
+    #[inline(always)]
+    #[must_use]
+    pub fn weight(&self, offsets: [f32; 2]) -> f32 {
+        if self.is_positive() {
+            return 1.0;
+        }
+        offsets.iter().fold(1.0, |w, x| w * self.scale * (self.sign_change - x.abs()).signum())
     }
 }
 
@@ -122,18 +185,28 @@ mod tests {
             (Filter::Box { radius: 0.5 }, 1.0 / 12.0),
             (Filter::Tent { radius: 1.0 }, 1.0 / 6.0),
             (Filter::Gaussian { radius: 1.5 }, gaussian),
+            (Filter::Mitchell { radius: 2.0 }, 1.0 / 9.0),
+            // By numerical integration.
+            (Filter::BlackmanHarris { radius: 1.5 }, 0.172_658_5),
         ] {
             let sampler = FilterSampler::new(&filter);
             let n = 100_000;
-            let (mut sum, mut squares) = (0.0f64, 0.0f64);
+            let (mut sum, mut squares, mut weights) = (0.0f64, 0.0f64, 0.0f64);
             for i in 0..n {
-                let x = f64::from(sampler.offset((i as f32 + 0.5) / n as f32));
-                sum += x;
-                squares += x * x;
+                let x = sampler.offset((i as f32 + 0.5) / n as f32);
+                // Along one axis.
+                let weight = f64::from(sampler.weight([x, 0.0]) / sampler.weight([0.0, 0.0]).sqrt());
+                let x = f64::from(x);
+                weights += weight;
+                sum += weight * x;
+                squares += weight * x * x;
             }
+            assert!((weights / f64::from(n) - 1.0).abs() < 2e-3, "{filter:?} {weights}");
             let found = squares / f64::from(n);
             assert!((sum / f64::from(n)).abs() < 1e-4);
-            assert!((found / variance - 1.0).abs() < 2e-3, "{filter:?} {found} {variance}");
+            // The table is coarse in the long tails of the window of cosines.
+            let most = if matches!(filter, Filter::BlackmanHarris { .. }) { 4e-3 } else { 2e-3 };
+            assert!((found / variance - 1.0).abs() < most, "{filter:?} {found} {variance}");
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A scene in the lanes of one pass.
 
+use crate::participating::MediumLanes;
 use crate::passes::Light;
 use crate::sequence::Sequence;
 use crate::skins::{Mixture, SkinLanes};
@@ -46,6 +47,10 @@ pub struct Pass<const N: usize, M> {
     pub materials: Vec<M>,
     /// What images say of each material, if they do.
     pub(crate) skins: Vec<Option<SkinLanes<N, M>>>,
+    /// The radiance that stands for all light that is not followed, of each group of lamps; empty where all is followed.
+    pub ambient: Vec<Lanes<N>>,
+    /// What is in the air, if anything.
+    pub(crate) medium: Option<MediumLanes<N>>,
     /// The spectra of the lamps.
     pub emission: Vec<Lanes<N>>,
     /// Where each lane lies in the spectral range, 0 to 1.
@@ -128,6 +133,8 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
                     SkinLanes::new(skin, material, illumination, b, basis, samples.clone(), range)
                 })
                 .collect(),
+            ambient: Vec::new(),
+            medium: scene.medium.as_ref().map(|m| MediumLanes::new(m, basis, samples.clone(), range)),
             emission: emission.collect(),
             position: lanes(&position),
             vacuum,

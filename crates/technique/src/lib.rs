@@ -1,14 +1,19 @@
 //! How an image is made: techniques, and what they share (random numbers, reconstruction filter, film, render loop).
 
+mod direct_light;
 mod film;
 mod filter;
 mod haze;
+mod interaction;
 mod lanes;
 mod media;
 pub mod pairs;
+mod participating;
 mod passes;
 mod path;
+mod ray_tree;
 mod render;
+mod sampler;
 mod scanline;
 mod scene_products;
 mod sequence;
@@ -22,7 +27,10 @@ pub use filter::{Filter, FilterSampler};
 pub use passes::Replay;
 pub use path::{Counts, PathTracer, Probe, Query, Recorder, Vertex};
 pub use render::{Dropped, Progress, Render, RenderError, Statistics};
+pub use sampler::Sampler;
 pub use scanline::edges;
 pub use scene_products::{products, spectral_error};
 pub use sequence::Sequence;
-pub use settings::{Antialiasing, Infinite, Interpolation, Layer, Settings, Shading, Shadows, Technique};
+pub use settings::{
+    Antialiasing, Infinite, Interpolation, Layer, LightCentres, Settings, Shading, Shadows, Technique,
+};

@@ -3,7 +3,7 @@
 use crate::settings::{Settings, Shading, Shadows, Technique};
 use illuminant_illumination::{CoefficientCurves, Illumination, Surface};
 use illuminant_optics::distribution::Distribution;
-use illuminant_scene::Scene;
+use illuminant_scene::{LampForm, Scene};
 
 /// What is to be said of a pair.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,6 +41,23 @@ pub fn pair(technique: Technique, illumination: Illumination) -> Pair {
         ),
         (T::Path, I::Whitted | I::Hall) => Pair::Warned(
             "its highlights of lamps come on top of rays that meet the lamps too, so energy is created",
+        ),
+        (T::Raytrace, I::Whitted | I::Hall) => {
+            Pair::Sensible("rays towards the mirror direction and through glass, as its authors meant it")
+        }
+        (T::Raytrace, I::General) => Pair::Sensible(
+            "what stays coherent is followed; what rough surfaces show of others is that of the surroundings",
+        ),
+        (T::Raytrace | T::Distributed, I::Bouknight | I::Phong | I::Blinn | I::CookTorrance) => {
+            Pair::Sensible(
+                "lamps with their shadows; the model asks for no rays but through what is transparent",
+            )
+        }
+        (T::Distributed, I::Whitted | I::Hall) => {
+            Pair::Sensible("its rays, blurred as the highlight is wide, and soft shadows")
+        }
+        (T::Distributed, I::General) => Pair::Sensible(
+            "soft shadows, gloss and translucency; diffuse light from anything but lamps is ambient",
         ),
         (T::Constant | T::Gouraud, I::Whitted | I::Hall) => Pair::Refused(
             "the model asks for the radiance from the mirror direction of every point, and this technique shades no \
@@ -126,6 +143,43 @@ pub fn check_shading(
         }
     }
     Ok(())
+}
+
+/// What a technique will not show of a scene.
+pub(crate) fn misfits(scene: &Scene, settings: &Settings) -> Vec<String> {
+    let mut found = Vec::new();
+    let Ok(technique) = settings.technique.parse::<Technique>() else { return found };
+    let used = |material: &usize| scene.objects.iter().any(|object| object.material == *material);
+    let of_glass = |smooth: bool, disperses: bool| {
+        (0..scene.materials.len()).filter(used).find(|&m| match &scene.materials[m].surface {
+            Surface::Dielectric { finish, dispersion, .. } => {
+                (!smooth || finish.is_smooth()) && (!disperses || *dispersion)
+            }
+            _ => false,
+        })
+    };
+    let without_size = scene
+        .lamps
+        .iter()
+        .find(|lamp| !matches!(lamp.form, LampForm::Surface(_) | LampForm::Uniform | LampForm::Image(_)));
+    if let (Technique::Path, Some(lamp), Some(glass)) = (technique, without_size, of_glass(true, false)) {
+        found.push(format!(
+            "path does not find the light that {:?} sends through {:?}: a lamp without size is never met behind smooth \
+             glass, so what it gathers is missing and its shadow is black; give the lamp an area",
+            lamp.name, scene.materials[glass].name
+        ));
+    }
+    if scene.medium.is_some() && technique != Technique::Path {
+        found.push(format!("{technique} does not see what is in the air: path follows light in the medium"));
+    }
+    let trees = matches!(technique, Technique::Raytrace | Technique::Distributed);
+    if let (true, Some(glass)) = (trees, of_glass(false, true)) {
+        found.push(format!(
+            "{technique} bends all wavelengths alike, as 589.3 nm; path shows how {:?} disperses them",
+            scene.materials[glass].name
+        ));
+    }
+    found
 }
 
 /// What a user should know of the pair that settings name.

@@ -5,14 +5,17 @@
 //! is not dispersed is seen by the samples; light that a dispersive refraction has bent, by that wavelength alone, whose
 //! throughput before the refraction is known because it was carried.
 
+use crate::direct_light::ambient;
 use crate::film::{LayerPlan, TOO_LARGE, TileFilm};
 use crate::filter::FilterSampler;
 use crate::haze::Haze;
 use crate::lanes::Pass;
 use crate::path::{Counts, PathTracer, Primary, Probe, Query, Recorder, Vertex};
+use crate::ray_tree::RayTree;
 use crate::render::RenderError;
+use crate::sampler::Numbers;
 use crate::scanline::Scanline;
-use crate::sequence::{Sequence, mix};
+use crate::sequence::mix;
 use crate::settings::Technique;
 use crate::settings::{Layer, Settings};
 use crate::wavelength::{Accompanied, Wavelength, wavelengths};
@@ -28,6 +31,7 @@ pub(crate) struct Job {
     pub scene: Arc<Scene>,
     pub settings: Settings,
     pub filter: FilterSampler,
+    pub numbers: Numbers,
     pub plan: Vec<LayerPlan>,
     pub channels: usize,
     /// The group of each lamp: lamps of a group share a bundle.
@@ -92,9 +96,15 @@ pub(crate) enum Light<'a> {
 
 /// The passes of a sampling in bundles of N lanes, through the model M.
 struct Passes<const N: usize, M> {
-    tracer: PathTracer,
+    tracer: Tracer,
     /// One list of passes for each wavelength that a path may carry beside the samples; else one list.
     variants: Vec<Vec<Pass<N, M>>>,
+}
+
+/// How light is followed from the camera.
+enum Tracer {
+    Paths(PathTracer),
+    Trees(RayTree),
 }
 
 /// The passes of a basis in bundles of N lanes.
@@ -121,17 +131,27 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
         illumination: Illumination,
         basis: &dyn Basis,
         companions: Option<&[Wavelength]>,
-        depth: Option<u32>,
-        groups: &[usize],
+        (technique, settings): (Technique, &Settings),
+        (groups, group_of): (&[usize], &[usize]),
         light: Light<'_>,
     ) -> Self {
-        let passes =
-            |basis: &dyn Basis, companion| passes_of(scene, illumination, basis, companion, groups, light);
+        let tracer = match RayTree::new(settings, technique) {
+            Some(tree) => Tracer::Trees(tree),
+            None => Tracer::Paths(PathTracer { depth: settings.depth.unwrap_or(u32::MAX) }),
+        };
+        let passes = |basis: &dyn Basis, companion| {
+            let mut all = passes_of(scene, illumination, basis, companion, groups, light);
+            if let Tracer::Trees(_) = tracer {
+                let ambient = |pass: &Pass<N, M>| ambient(scene, pass, group_of, settings.ambient as f32);
+                all.iter_mut().for_each(|pass| pass.ambient = ambient(pass));
+            }
+            all
+        };
         let variants = match companions {
             Some(all) => all.par_iter().map(|w| passes(&Accompanied::new(basis, *w), Some(*w))).collect(),
             None => vec![passes(basis, None)],
         };
-        Self { tracer: PathTracer { depth: depth.unwrap_or(u32::MAX) }, variants }
+        Self { tracer, variants }
     }
 
     /// The passes of a path. Neighbouring samples of a pixel take wavelengths far apart, neighbouring pixels others.
@@ -145,7 +165,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
         &self.variants[(place % count) as usize]
     }
 
-    /// Follows one sample through all passes; `each` gets what every pass brought.
+    /// Follows one sample through all passes; `each` gets what every pass brought. What is seen first, and what the sample counts.
     #[inline(always)]
     fn sample<P: Probe>(
         &self,
@@ -155,24 +175,39 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
         radiance: &mut [Lanes<N>],
         probe: &mut P,
         mut each: impl FnMut(&Pass<N, M>, &[Lanes<N>], &mut P),
-    ) -> Primary {
+    ) -> (Primary, f32) {
         let [x, y] = pixel;
         let replicates = u64::from(job.settings.replicates.max(1));
         let stream = u64::from(y) << 32 | u64::from(x);
-        let mut sequence = Sequence::new(job.settings.seed, stream, sample / replicates, sample % replicates);
+        let (index, replicate) = (sample / replicates, sample % replicates);
+        let chance = !matches!(&self.tracer, Tracer::Trees(tree) if !tree.is_distributed());
+        // Without chance all pixels are seen at the same places.
+        let own = if chance { stream } else { 0 };
+        let mut sequence = job.numbers.sequence(job.settings.seed, own, index, replicate);
         let [u, v, u_lamp @ ..] = sequence.next4();
-        let [open, close] = job.scene.camera.shutter;
-        let u_time = if close > open { sequence.next4()[0] } else { 0.0 };
+        let camera = &job.scene.camera;
+        let [open, close] = camera.shutter;
+        let [u_time, u_lens @ .., _] =
+            if chance && (close > open || camera.lens.is_some()) { sequence.next4() } else { [0.0; 4] };
         let (fx, fy) = (job.filter.offset(u), job.filter.offset(v));
-        let ray = job.scene.camera.ray(x as f32 + 0.5 + fx, y as f32 + 0.5 + fy, u_time);
+        let [px, py] = [x as f32 + 0.5 + fx, y as f32 + 0.5 + fy];
+        let ray =
+            if chance { camera.ray_through_lens(px, py, u_time, u_lens) } else { camera.ray(px, py, 0.0) };
         let mut primary = Primary::default();
         for pass in self.variant(job, stream, sample) {
             radiance.fill(Lanes::default());
-            primary =
-                self.tracer.trace(&job.scene, pass, &job.group_of, ray, sequence, u_lamp, radiance, probe);
+            let (scene, group_of) = (&*job.scene, &job.group_of);
+            primary = match &self.tracer {
+                Tracer::Paths(paths) => {
+                    paths.trace(scene, pass, group_of, ray, sequence, u_lamp, radiance, probe)
+                }
+                Tracer::Trees(trees) => {
+                    trees.trace(scene, pass, group_of, ray, index, sequence, radiance, probe)
+                }
+            };
             each(pass, radiance, probe);
         }
-        primary
+        (primary, job.filter.weight([fx, fy]))
     }
 
     /// An empty bundle for each group, and with dispersion another for what has been dispersed.
@@ -210,7 +245,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
                 if !plain {
                     values.fill(0.0);
                 }
-                let primary =
+                let (primary, weight) =
                     self.sample(job, pixel, sample, &mut radiance, &mut result.counts, |pass, light, _| {
                         sound &= add_xyz(pass, light, &mut xyz);
                         if !plain {
@@ -223,6 +258,9 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
                 }
                 if !plain {
                     auxiliary_layers(job, &primary, sample, &mut values);
+                }
+                if !job.filter.is_positive() {
+                    values.iter_mut().for_each(|v| *v *= weight);
                 }
                 // Every channel, not XYZ alone: a lane in the infrared may be vast where its XYZ is nothing.
                 if sound && values.iter().all(|v| v.abs() < TOO_LARGE) {
@@ -251,7 +289,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
     fn follow(&self, job: &Job, pixel: [u32; 2], sample: u64, to: &mut Followed) {
         let mut radiance = self.bundles();
         let samples = &mut to.samples;
-        let primary =
+        let (primary, _) =
             self.sample(job, pixel, sample, &mut radiance, &mut Counts::default(), |pass, light, _| {
                 for (light, all) in light.iter().zip(samples.iter_mut()) {
                     for (sum, value) in all[pass.own_samples()].iter_mut().zip(&light.0) {
@@ -364,8 +402,8 @@ fn of_lanes<const N: usize>(
             let passes = passes_of::<N, M>(scene, illumination, basis, None, groups, light);
             return Box::new(Scanline::new(scene, settings, technique, group_of, passes));
         }
-        let depth = settings.depth;
-        Box::new(Passes::<N, M>::new(scene, illumination, basis, companions, depth, groups, light))
+        let (how, groups) = ((technique, settings), (groups, group_of));
+        Box::new(Passes::<N, M>::new(scene, illumination, basis, companions, how, groups, light))
     }
     match pair.1 {
         Illumination::General => {

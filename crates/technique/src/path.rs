@@ -4,23 +4,23 @@
 //! Where a path goes never depends on the lanes, only on seed, pixel, sample and the brightness of materials; so every
 //! spectral sampling follows the same paths, and `1nm` may follow them pass by pass.
 
+use crate::interaction::{Interaction, next_surface};
 use crate::lanes::Pass;
 use crate::media::Media;
+use crate::participating::{Draws, MediumLanes};
 use crate::sequence::Sequence;
-use crate::skins::perturbed;
 use glam::Vec3;
-use illuminant_illumination::{IlluminationModel, Incidence, Prepare};
-use illuminant_optics::frame::Frame;
+use illuminant_illumination::{IlluminationModel, Prepare};
 use illuminant_sampling::Lanes;
-use illuminant_scene::{Hit, Ray, Scene, SurfacePoint, TexturePoint};
+use illuminant_scene::{Hit, Ray, Scene, SurfacePoint};
 
 /// After this many segments a path may be ended by chance.
 const ROULETTE_FROM: u32 = 5;
 
 /// The part of a pixel that one path sees of a texture: many paths share a pixel.
-const OF_PIXEL: f32 = 0.5;
+pub(crate) const OF_PIXEL: f32 = 0.5;
 /// The part of a lobe that one path sees of a texture behind it.
-const OF_LOBE: f32 = 0.125;
+pub(crate) const OF_LOBE: f32 = 0.125;
 
 /// How paths are followed.
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +64,9 @@ pub trait Probe {
     /// Whether `origin` + `span` · (0, `tfar`) is free is about to be asked.
     fn occlusion(&mut self, origin: Vec3, span: Vec3, tfar: f32);
 
+    /// A ray was not followed, because it weighs too little.
+    fn pruned(&mut self) {}
+
     /// A vertex has been dealt with.
     fn vertex(&mut self, _vertex: Vertex) {}
 }
@@ -75,6 +78,8 @@ pub struct Counts {
     pub closest: u64,
     /// Occlusion queries.
     pub occlusion: u64,
+    /// Rays that were not followed, because they weigh too little.
+    pub pruned: u64,
 }
 
 impl Probe for Counts {
@@ -86,6 +91,11 @@ impl Probe for Counts {
     #[inline(always)]
     fn occlusion(&mut self, _origin: Vec3, _span: Vec3, _tfar: f32) {
         self.occlusion += 1;
+    }
+
+    #[inline(always)]
+    fn pruned(&mut self) {
+        self.pruned += 1;
     }
 }
 
@@ -125,13 +135,13 @@ impl Probe for Recorder {
 
 /// The weight of a direction drawn with density `mine` that could have been drawn with `other`.
 #[inline(always)]
-fn power_heuristic(mine: f32, other: f32) -> f32 {
+pub(crate) fn power_heuristic(mine: f32, other: f32) -> f32 {
     let ratio = other / mine;
     (1.0 + ratio * ratio).recip()
 }
 
 /// The light of all groups of lamps together.
-fn sum<const N: usize>(radiance: &[Lanes<N>]) -> Lanes<N> {
+pub(crate) fn sum<const N: usize>(radiance: &[Lanes<N>]) -> Lanes<N> {
     radiance.iter().fold(Lanes::default(), |sum, light| sum + *light)
 }
 
@@ -152,6 +162,8 @@ struct State<const N: usize> {
     /// The cone of light that the path stands for (Amanatides 1984; Akenine-Möller et al. 2019): its width where the ray begins,
     /// and how it grows with distance.
     cone: [f32; 2],
+    /// By what distances in the air are drawn, once they are.
+    draws: Option<Draws>,
 }
 
 impl PathTracer {
@@ -171,7 +183,6 @@ impl PathTracer {
         radiance: &mut [Lanes<N>],
         probe: &mut P,
     ) -> Primary {
-        let geometry = &*scene.geometry;
         let mut primary = Primary::default();
         let mut path = State {
             ray,
@@ -183,19 +194,47 @@ impl PathTracer {
             origin: None,
             u_lamp,
             cone: [0.0, OF_PIXEL * scene.camera.pixel_angle()],
+            draws: None,
         };
         for segment in 1..=self.depth {
-            probe.closest(&path.ray);
-            let Some(hit) = geometry.closest_hit(&path.ray) else {
+            let (before, open) = (path.ray, path.media.innermost().is_none());
+            let State { ray, media, throughput, .. } = &mut path;
+            let met = next_surface(scene, pass, ray, media, throughput, probe);
+            if let Some(medium) = pass.medium.as_ref().filter(|_| open) {
+                let length = met.as_ref().map_or(f32::INFINITY, |(.., distance)| *distance);
+                let draws = path.draws.get_or_insert_with(|| Draws::new(sequence.next4()[0]));
+                let found = medium.travel(before.origin, before.direction, length, draws, &mut sequence);
+                path.throughput *= found.weight;
+                path.brightness *= found.brightness;
+                if let Some(distance) = found.scattered {
+                    path.ray = before;
+                    path.cone[0] += path.cone[1] * distance;
+                    let place = before.origin + before.direction * distance;
+                    let (lamps, far) = ((group_of, segment), segment < self.depth);
+                    if far
+                        && self.scatter_in_air(
+                            scene,
+                            pass,
+                            medium,
+                            lamps,
+                            &mut path,
+                            place,
+                            &mut sequence,
+                            radiance,
+                            probe,
+                        )
+                    {
+                        continue;
+                    }
+                    break;
+                }
+            }
+            let Some((hit, point, distance)) = met else {
                 self.add_surroundings(scene, pass, group_of, &path, radiance);
                 primary.emits |= segment == 1 && !scene.surroundings.is_empty();
                 break;
             };
-            if let Some(kept) = pass.transmittance(path.media.innermost(), hit.distance) {
-                path.throughput *= kept;
-            }
-            let point = geometry.surface(&path.ray, &hit);
-            path.cone[0] += path.cone[1] * hit.distance;
+            path.cone[0] += path.cone[1] * distance;
             let object = &scene.objects[hit.object as usize];
             let before = if P::VERTICES { sum(radiance) } else { Lanes::default() };
             let arriving = path.throughput;
@@ -208,7 +247,7 @@ impl PathTracer {
                 primary.emits |= segment == 1;
             }
             if segment == 1 {
-                primary.surface = Some((hit.distance, hit.object, point.normal));
+                primary.surface = Some((distance, hit.object, point.normal));
             }
             let goes_on = segment < self.depth
                 && self.scatter(
@@ -218,7 +257,6 @@ impl PathTracer {
                     &mut path,
                     &hit,
                     &point,
-                    object.material,
                     segment,
                     &mut sequence,
                     radiance,
@@ -250,52 +288,21 @@ impl PathTracer {
         path: &mut State<N>,
         hit: &Hit,
         point: &SurfacePoint,
-        material: usize,
         segment: u32,
         sequence: &mut Sequence,
         radiance: &mut [Lanes<N>],
         probe: &mut P,
     ) -> bool {
         let to_viewer = -path.ray.direction;
-        // A shading normal that faces away where the surface faces the viewer is no normal to shade with.
-        let facing = point.normal.dot(to_viewer) * point.geometric_normal.dot(to_viewer) > 0.0;
-        let mut normal = if facing { point.normal } else { point.geometric_normal };
-        let mut own = None;
-        if !scene.skins[material].is_bare() {
-            let along = scene.geometry.along(&path.ray, hit);
-            let [width, _] = path.cone;
-            let seen = TexturePoint::new(point.uv, along, width, path.ray.direction, point.geometric_normal);
-            normal = perturbed(scene, material, &seen, normal, to_viewer);
-            own = pass.textured(scene, material, &seen, sequence);
-        }
-        let model = own.as_ref().unwrap_or(&pass.materials[material]);
-        let frame = match scene.materials[material].grain {
-            Some(grain) => Frame::along(normal, Vec3::from(grain)),
-            None => Frame::from_normal(normal),
-        };
-        let local = frame.to_local(to_viewer);
-        let outside = local.z > 0.0;
-        let around = path.media;
-        let beyond = if outside { around.entered(material) } else { around.left(material) };
-        // An opaque surface, or a filter, has the same medium on both sides.
-        let (near, far) = if outside || !model.bounds_media() {
-            (around.innermost(), Some(material))
-        } else {
-            (Some(material), beyond.innermost())
-        };
-        let at = Incidence {
-            to_viewer: local,
-            near: pass.index(near),
-            far: pass.index(far),
-            hero_lane: path.hero.and_then(|sample| pass.lane(sample)),
-        };
+        let hero_lane = path.hero.and_then(|sample| pass.lane(sample));
+        let [width, _] = path.cone;
+        let met =
+            Interaction::new(scene, pass, &path.ray, hit, point, path.media, width, hero_lane, sequence);
+        let model = met.model();
         let [u_lobe, u_survival, u_choice, u_hero] = sequence.next4();
         let [u, v, next_lamp @ ..] = sequence.next4();
         if model.is_continuous() {
-            self.ask_lamp(
-                scene, pass, group_of, path, point, normal, &frame, &at, model, beyond, u_choice, radiance,
-                probe,
-            );
+            self.ask_lamp(scene, pass, group_of, path, point, &met, u_choice, sequence, radiance, probe);
         }
         // The sample that a dispersive refraction here would keep: the path's own wavelength, or any of `1nm`.
         let (hero_sample, factor) = match pass.carried {
@@ -303,8 +310,8 @@ impl PathTracer {
             None => (((u_hero * pass.total as f32) as usize).min(pass.total - 1), pass.total as f32),
         };
         let hero_lane = pass.lane(path.hero.unwrap_or(hero_sample));
-        let Some(drawn) = model.sample(&at, [u, v, u_lobe], hero_lane) else { return false };
-        let direction = frame.to_world(drawn.direction);
+        let Some(drawn) = model.sample(&met.at, [u, v, u_lobe], hero_lane) else { return false };
+        let direction = met.frame.to_world(drawn.direction);
         let outward = direction.dot(point.geometric_normal);
         // Light must leave on the side on which the model says it does.
         if (outward * to_viewer.dot(point.geometric_normal) > 0.0) == drawn.transmitted {
@@ -319,7 +326,7 @@ impl PathTracer {
             path.bundle = pass.dispersed.unwrap_or(0);
         }
         if drawn.transmitted && model.bounds_media() {
-            path.media = beyond;
+            path.media = met.beyond;
         }
         if segment >= ROULETTE_FROM {
             let survival = path.brightness.min(0.98);
@@ -331,7 +338,7 @@ impl PathTracer {
         }
         path.u_lamp = next_lamp;
         path.ray = Ray { origin: point.offset(direction), direction, time: path.ray.time };
-        path.origin = drawn.pdf.map(|pdf| (point.position, normal, pdf));
+        path.origin = drawn.pdf.map(|pdf| (point.position, met.normal, pdf));
         // A drawn direction stands for 1/pdf of solid angle.
         path.cone[1] += drawn.pdf.map_or(0.0, |pdf| OF_LOBE * pdf.max(1e-3).sqrt().recip());
         true
@@ -346,17 +353,16 @@ impl PathTracer {
         group_of: &[usize],
         path: &State<N>,
         point: &SurfacePoint,
-        normal: Vec3,
-        frame: &Frame,
-        at: &Incidence<'_, N>,
-        model: &M,
-        beyond: Media,
+        met: &Interaction<'_, N, M>,
         u_choice: f32,
+        sequence: &mut Sequence,
         radiance: &mut [Lanes<N>],
         probe: &mut P,
     ) {
         let geometry = &*scene.geometry;
-        let Some((lamp, probability)) = scene.chooser.choose(&scene.lamps, point.position, normal, u_choice)
+        let (model, at) = (met.model(), &met.at);
+        let Some((lamp, probability)) =
+            scene.chooser.choose(&scene.lamps, point.position, met.normal, u_choice)
         else {
             return;
         };
@@ -364,7 +370,7 @@ impl PathTracer {
         let Some(light) = scene.lamps[lamp].sample(geometry, point.position, time, path.u_lamp) else {
             return;
         };
-        let local = frame.to_local(light.direction);
+        let local = met.frame.to_local(light.direction);
         let outward = light.direction.dot(point.geometric_normal);
         if outward * local.z <= 0.0 {
             return;
@@ -392,11 +398,73 @@ impl PathTracer {
             None => pass.emission[lamp],
         };
         let mut arriving = path.throughput * f * emission * weight;
-        let medium = if local.z * at.to_viewer.z > 0.0 { path.media } else { beyond };
+        let medium = if local.z * at.to_viewer.z > 0.0 { path.media } else { met.beyond };
         if let Some(kept) = pass.transmittance(medium.innermost(), span.length().min(f32::MAX)) {
             arriving *= kept;
         }
+        if let Some(air) = pass.medium.as_ref().filter(|_| medium.innermost().is_none()) {
+            arriving *= air.left_of(origin, span, tfar, sequence);
+        }
         radiance[path.bundle + group_of[lamp]] += arriving;
+    }
+
+    /// Asks a lamp where a medium scatters, then draws the next direction; whether the path goes on.
+    #[inline(never)]
+    fn scatter_in_air<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
+        &self,
+        scene: &Scene,
+        pass: &Pass<N, M>,
+        medium: &MediumLanes<N>,
+        (group_of, segment): (&[usize], u32),
+        path: &mut State<N>,
+        place: Vec3,
+        sequence: &mut Sequence,
+        radiance: &mut [Lanes<N>],
+        probe: &mut P,
+    ) -> bool {
+        let (along, time, phase) = (path.ray.direction, path.ray.time, medium.phase());
+        let [u_choice, u_survival, u, v] = sequence.next4();
+        let [x, y, ..] = sequence.next4();
+        let asked = scene.chooser.choose(&scene.lamps, place, along, u_choice);
+        let light = asked.and_then(|(lamp, probability)| {
+            let light = scene.lamps[lamp].sample(&scene.geometry, place, time, path.u_lamp)?;
+            Some((lamp, probability, light))
+        });
+        if let Some((lamp, probability, light)) = light {
+            let p = phase.value(along.dot(light.direction));
+            let weight = match light.pdf.map(|pdf| pdf * probability) {
+                Some(pdf) => light.scale / pdf * power_heuristic(pdf, p),
+                None => light.scale / probability,
+            };
+            let (span, tfar) = match light.target {
+                Some(target) => (target - place, 1.0),
+                None => (light.direction, f32::INFINITY),
+            };
+            probe.occlusion(place, span, tfar);
+            if !scene.geometry.is_occluded(place, span, time, tfar) {
+                let emission = match light.uv {
+                    Some(_) => pass.surroundings(scene, lamp, light.direction),
+                    None => pass.emission[lamp],
+                };
+                let left = medium.left_of(place, span, tfar, sequence);
+                radiance[path.bundle + group_of[lamp]] += path.throughput * emission * left * (weight * p);
+            }
+        }
+        if segment >= ROULETTE_FROM {
+            let survival = path.brightness.min(0.98);
+            if u_survival >= survival {
+                return false;
+            }
+            path.throughput *= survival.recip();
+            path.brightness /= survival;
+        }
+        let direction = phase.sample(along, [u, v]);
+        let pdf = phase.value(along.dot(direction));
+        path.u_lamp = [x, y];
+        path.ray = Ray { origin: place, direction, time };
+        path.origin = Some((place, along, pdf));
+        path.cone[1] += OF_LOBE * pdf.max(1e-3).sqrt().recip();
+        true
     }
 
     /// How much a lamp counts that a drawn direction has met, beside being asked directly.

@@ -6,9 +6,10 @@ use crate::haze::Haze;
 use crate::pairs;
 use crate::passes::{Job, Light, Replay, TileCounts, TileRenderer, group_lamps, renderer};
 use crate::path::Query;
+use crate::sampler::Numbers;
 use crate::scanline::BAND;
 use crate::scene_products::{products, spectral_error};
-use crate::settings::{Layer, Settings, Shadows, Technique};
+use crate::settings::{Layer, LightCentres, Settings, Shadows, Technique};
 use illuminant_illumination::Illumination;
 use illuminant_sampling::{Basis, SamplingError, SpectralError, SpectralSampling};
 use illuminant_scene::Scene;
@@ -61,6 +62,8 @@ pub struct Statistics {
     pub closest: u64,
     /// Occlusion queries.
     pub occlusion: u64,
+    /// Rays that ray tracing did not follow, because they weigh too little.
+    pub pruned: u64,
     /// Spans of polygons in rows of samples, hidden ones included, of scanline techniques.
     pub spans: u64,
     /// Samples left out because they were no radiance.
@@ -136,6 +139,15 @@ impl Render {
         if matches!(settings.shadows, Shadows::Maps(size) if !(64..=16384).contains(&size)) {
             return Err(RenderError::Setting("shadow maps must be 64 to 16384 texels wide".into()));
         }
+        if !(settings.threshold >= 0.0 && settings.threshold < 1.0) {
+            return Err(RenderError::Setting(format!(
+                "threshold must lie from 0 to below 1, not {}",
+                settings.threshold
+            )));
+        }
+        if matches!(settings.light_centres, LightCentres::Fixed(count) if !(1..=4096).contains(&count)) {
+            return Err(RenderError::Setting("fixed light centres must be 1 to 4096".into()));
+        }
         if settings.depth == Some(0) {
             return Err(RenderError::Setting("depth must be 1 or more".into()));
         }
@@ -179,6 +191,7 @@ impl Render {
             albedo,
             haze: Haze::new(&scene, &film.plan, &*basis),
             filter: FilterSampler::new(&settings.filter),
+            numbers: Numbers::new(settings.sampler, settings.strata),
             plan: film.plan.clone(),
             channels: film.channels(),
             group_of,
@@ -216,6 +229,7 @@ impl Render {
             self.statistics.samples += result.samples;
             self.statistics.closest += result.counts.closest;
             self.statistics.occlusion += result.counts.occlusion;
+            self.statistics.pruned += result.counts.pruned;
             self.statistics.spans += result.spans;
             self.statistics.dropped += result.dropped.len() as u64;
             for (pixel, sample) in result.dropped {
@@ -308,6 +322,7 @@ impl Render {
     pub fn warnings(&self) -> Vec<String> {
         let mut found = crate::warnings::warnings(&self.job.scene, &*self.basis, &self.job.settings.sampling);
         found.extend(pairs::warning(&self.job.settings));
+        found.extend(pairs::misfits(&self.job.scene, &self.job.settings));
         found
     }
 

@@ -7,6 +7,7 @@
 
 use crate::filter::FilterSampler;
 use crate::passes::{Followed, Job, Light, TileRenderer, group_lamps, renderer};
+use crate::sampler::Numbers;
 use crate::settings::{Layer, Settings, Technique};
 use illuminant_color::{RgbSystem, Triple};
 use illuminant_illumination::Illumination;
@@ -69,6 +70,7 @@ fn job(scene: &Arc<Scene>, settings: &Settings, group_of: Vec<usize>) -> Job {
     let settings = Settings { seed: SEED, replicates: 1, ..settings.clone() };
     Job {
         filter: FilterSampler::new(&settings.filter),
+        numbers: Numbers::new(settings.sampler, settings.strata),
         scene: Arc::clone(scene),
         settings,
         plan: Vec::new(),

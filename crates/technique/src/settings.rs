@@ -1,6 +1,6 @@
 //! What a render is told beside its scene.
 
-use crate::Filter;
+use crate::{Filter, Sampler};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -14,6 +14,10 @@ pub enum Technique {
     Gouraud,
     /// Scanline, normals interpolated and the model evaluated at every pixel (Phong 1975).
     Phong,
+    /// Recursive ray tracing (Whitted 1980), without chance.
+    Raytrace,
+    /// Distributed ray tracing (Cook, Porter and Carpenter 1984).
+    Distributed,
     /// Path tracing (Kajiya 1986).
     #[default]
     Path,
@@ -21,12 +25,13 @@ pub enum Technique {
 
 impl Technique {
     /// All techniques.
-    pub const ALL: &'static [Self] = &[Self::Constant, Self::Gouraud, Self::Phong, Self::Path];
+    pub const ALL: &'static [Self] =
+        &[Self::Constant, Self::Gouraud, Self::Phong, Self::Raytrace, Self::Distributed, Self::Path];
 
     /// Whether images are made scanline by scanline, of light straight from lamps alone.
     #[must_use]
     pub fn is_scanline(self) -> bool {
-        self != Self::Path
+        matches!(self, Self::Constant | Self::Gouraud | Self::Phong)
     }
 }
 
@@ -36,6 +41,8 @@ impl fmt::Display for Technique {
             Self::Constant => "constant",
             Self::Gouraud => "gouraud",
             Self::Phong => "phong",
+            Self::Raytrace => "raytrace",
+            Self::Distributed => "distributed",
             Self::Path => "path",
         })
     }
@@ -110,6 +117,19 @@ pub enum Antialiasing {
     Coverage,
 }
 
+/// Where ray tracing asks lamps that have an area (book figures 4.17 and 4.18).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LightCentres {
+    /// At so many fixed places: each point asks all of them (`raytrace`), or each sample one (`distributed`).
+    Fixed(u32),
+    /// Anywhere, each sample without regard to the others.
+    Random,
+    /// Anywhere, spread over the samples of a pixel. `raytrace`, which draws nothing, takes four fixed places.
+    #[default]
+    Jittered,
+}
+
 /// What scanline techniques hold at infinity, so that directions to it are the same at all points (book 4.2.3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -148,7 +168,7 @@ pub enum Layer {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
-    /// `constant`, `gouraud`, `phong`, `path`.
+    /// `constant`, `gouraud`, `phong`, `raytrace`, `distributed`, `path`.
     pub technique: String,
     /// `bouknight`, `phong`, … `general`.
     pub illumination: String,
@@ -168,7 +188,15 @@ pub struct Settings {
     pub tile: u32,
     /// 2 keeps two independently scrambled halves, for an estimate of the error.
     pub replicates: u32,
-    /// The ambient light of scanline techniques as a fraction of what lamps would make of a white diffuser in the middle of
+    /// Which random numbers.
+    pub sampler: Sampler,
+    /// The samples of a pixel among which the samplers that need to know it spread their numbers.
+    pub strata: u32,
+    /// The weight below which ray tracing follows a ray no more.
+    pub threshold: f64,
+    /// Where ray tracing asks lamps that have an area.
+    pub light_centres: LightCentres,
+    /// The ambient light of all techniques but `path` as a fraction of what lamps would make of a white diffuser in the middle of
     /// the scene (book II.1.5: 0 to 0.3).
     pub ambient: f64,
     /// Where scanline techniques interpolate.
@@ -198,6 +226,10 @@ impl Default for Settings {
             layers: Vec::new(),
             tile: 16,
             replicates: 1,
+            sampler: Sampler::default(),
+            strata: 16,
+            threshold: 0.002,
+            light_centres: LightCentres::default(),
             ambient: 0.15,
             interpolation: Interpolation::default(),
             shading: Shading::default(),

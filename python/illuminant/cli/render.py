@@ -54,7 +54,7 @@ def render(
         typer.Option(
             "--technique",
             metavar="NAME",
-            help="How light is followed: constant, gouraud, phong (scanline), path (path).",
+            help="How light is followed: constant, gouraud, phong (scanline), raytrace, distributed, path (path).",
         ),
     ] = None,
     illumination: Annotated[
@@ -65,12 +65,36 @@ def render(
             help="What a surface does: bouknight, phong, blinn, whitted, hall, cook-torrance, general (general).",
         ),
     ] = None,
+    sampler: Annotated[
+        str | None,
+        typer.Option(
+            "--sampler",
+            metavar="NAME",
+            help="Random numbers: sobol-owen, random, stratified, jittered, poisson-disk (sobol-owen).",
+        ),
+    ] = None,
+    threshold: Annotated[
+        float | None,
+        typer.Option(
+            "--threshold",
+            metavar="W",
+            help="Weight below which raytrace and distributed follow a ray no more (0.002).",
+        ),
+    ] = None,
+    light_centres: Annotated[
+        str | None,
+        typer.Option(
+            "--light-centres",
+            metavar="HOW",
+            help="Where they ask lamps with an area: jittered, random, fixed:N (jittered).",
+        ),
+    ] = None,
     ambient: Annotated[
         float | None,
         typer.Option(
             "--ambient",
             metavar="F",
-            help="Ambient light of scanline techniques, as a fraction of what lamps make of a white diffuser (0.15).",
+            help="Ambient light of techniques but path, as a fraction of what lamps make of a white diffuser (0.15).",
         ),
     ] = None,
     interpolation: Annotated[
@@ -147,7 +171,8 @@ def render(
         typer.Option(
             "--filter",
             metavar="F",
-            help="Reconstruction filter: gaussian, box or tent, with its radius (gaussian:1.5).",
+            help="Reconstruction filter: gaussian, box, tent, mitchell or blackman-harris, with its radius "
+            "(gaussian:1.5).",
         ),
     ] = None,
     seed: Annotated[
@@ -241,6 +266,9 @@ def render(
         "lamps": lamps or None,
         "time": time,
         "error": error,
+        "sampler": sampler,
+        "threshold": threshold,
+        "light_centres": light_centres,
         "ambient": ambient,
         "interpolation": interpolation,
         "shading": shading,
@@ -264,7 +292,7 @@ def _again(scene: Path, options: dict[str, Any]) -> str:
     """The command that follows a path of this render again, up to the pixel: all that changes random numbers."""
     import shlex
 
-    names = ("technique", "illumination", "sampling", "size", "depth", "filter", "seed", "error")
+    names = ("technique", "illumination", "sampling", "size", "depth", "filter", "sampler", "seed", "error")
     given = [
         part for name in names if options[name] is not None for part in (f"--{name}", str(options[name]))
     ]

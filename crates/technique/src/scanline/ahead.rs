@@ -1,9 +1,10 @@
 //! What is shaded before scanning, and the values that corners give to spans.
 
 use super::edges::Quad;
-use super::lighting::{Lighting, PARTS, Place, ambient};
+use super::lighting::{Lighting, PARTS, Place};
 use super::projection::Polygon;
 use super::{OF_TEXTURE, Scanline, side};
+use crate::direct_light::ambient;
 use crate::film::{LayerPlan, TERMS};
 use crate::lanes::Pass;
 use crate::settings::{Interpolation, Layer, Technique};

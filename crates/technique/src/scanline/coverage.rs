@@ -10,7 +10,6 @@ use super::row::{Band, NOBODY, Sampled, Stack};
 use super::{Scanline, ShadedPass};
 use crate::film::TileFilm;
 use crate::passes::{Job, auxiliary_layers};
-use crate::sequence::Sequence;
 use crate::settings::{Interpolation, Technique};
 use illuminant_illumination::{IlluminationModel, Prepare};
 use std::ops::Range;
@@ -29,6 +28,8 @@ struct Fragment {
     first: u32,
     count: u32,
     places: u32,
+    /// What they count together.
+    weight: f32,
     /// The sum of the places, from the middle of the pixel.
     offset: [f32; 2],
 }
@@ -64,13 +65,14 @@ impl Fragments {
     }
 
     /// Adds a place where polygons are seen with these values.
-    fn add(&mut self, pixel: usize, polygons: &[u32], values: &[Quad], offset: [f32; 2]) {
+    fn add(&mut self, pixel: usize, polygons: &[u32], values: &[Quad], offset: [f32; 2], weight: f32) {
         let mut number = self.heads[pixel];
         while number != NONE {
             let fragment = &mut self.all[number as usize];
             let place = fragment.range();
             if self.polygons[place.clone()] == *polygons {
                 fragment.places += 1;
+                fragment.weight += weight;
                 fragment.offset[0] += offset[0];
                 fragment.offset[1] += offset[1];
                 let sums = &mut self.values[place.start * self.quads..place.end * self.quads];
@@ -84,7 +86,7 @@ impl Fragments {
         self.values.extend_from_slice(values);
         let (next, count) = (self.heads[pixel], polygons.len() as u32);
         self.heads[pixel] = self.all.len() as u32;
-        self.all.push(Fragment { next, first, count, places: 1, offset });
+        self.all.push(Fragment { next, first, count, places: 1, weight, offset });
     }
 }
 
@@ -138,7 +140,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
                     self.expose_fragment(job, passes, &seen, &values, band, &mut one);
                 }
                 self.tell_of_fragment(job, &seen, &values, &mut one);
-                let weight = fragment.places as f32 / PLACES as f32;
+                let weight = fragment.weight / PLACES as f32;
                 to.iter_mut().zip(&one).for_each(|(sum, v)| *sum += v * weight);
                 number = fragment.next;
             }
@@ -159,8 +161,10 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         found.heads = vec![NONE; width * height];
         let (mut polygons, mut values): (Vec<u32>, Vec<Quad>) = (Vec::new(), Vec::new());
         for place in 0..PLACES {
-            let [u, v, ..] = Sequence::new(job.settings.seed, 0, index * PLACES + place, stream).next4();
+            let [u, v, ..] =
+                job.numbers.sequence(job.settings.seed, 0, index * PLACES + place, stream).next4();
             let at = Sampled { area, offset: [job.filter.offset(u), job.filter.offset(v)] };
+            let weight = job.filter.weight(at.offset);
             let mut row = |band: &mut Band<N>, y: i32| {
                 let first = (y as u32 - area[1]) as usize * width;
                 let mut veils = band.veils.iter().peekable();
@@ -181,7 +185,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
                         }
                         next = veils.next_if(|veil| veil.column == column).map(|veil| veil.span);
                     }
-                    found.add(first + column, &polygons, &values, at.offset);
+                    found.add(first + column, &polygons, &values, at.offset, weight);
                 }
             };
             self.scan(job, pass, &at, band, &mut row);

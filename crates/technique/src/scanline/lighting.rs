@@ -1,54 +1,17 @@
 //! What reaches a point from lamps, for techniques that ask lamps alone.
 
 use super::shadows::Occlusion;
+use crate::direct_light::{Arriving, add_around, arriving, middle};
 use crate::lanes::Pass;
 use crate::skins::{Mixture, perturbed};
 use glam::Vec3;
 use illuminant_illumination::{IlluminationModel, Incidence, Prepare};
 use illuminant_optics::frame::Frame;
 use illuminant_sampling::Lanes;
-use illuminant_scene::{LampForm, Scene, TexturePoint};
-use std::f32::consts::FRAC_1_PI;
+use illuminant_scene::{Scene, TexturePoint};
 
 /// The parts of a radiance: ambient, diffuse, specular, transmitted, emitted. Each has a bundle for every group of lamps.
 pub(crate) const PARTS: usize = 5;
-
-/// Where an emitting surface is asked: the centres of four equal parts.
-const ON_LAMP: [[f32; 2]; 4] = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]];
-
-/// Light that arrives from a direction.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Arriving {
-    pub lamp: usize,
-    /// Which of the places on the lamp.
-    pub place: usize,
-    pub direction: Vec3,
-    /// Irradiance at normal incidence relative to the lamp's spectrum.
-    pub scale: f32,
-    pub target: Option<Vec3>,
-}
-
-/// Where on a lamp it is asked, as many as there are; none for what is all around.
-pub(super) fn places_on(form: &LampForm) -> &'static [[f32; 2]] {
-    match form {
-        LampForm::Uniform | LampForm::Image(_) => &[],
-        LampForm::Surface(_) => &ON_LAMP,
-        _ => &ON_LAMP[..1],
-    }
-}
-
-/// Light that arrives at a point from lamps.
-fn arriving(scene: &Scene, point: Vec3, each: &mut impl FnMut(Arriving)) {
-    for (number, lamp) in scene.lamps.iter().enumerate() {
-        let places = places_on(&lamp.form);
-        for (place, &u) in places.iter().enumerate() {
-            let Some(light) = lamp.sample(&scene.geometry, point, 0.0, u) else { continue };
-            let scale = light.scale / light.pdf.unwrap_or(1.0) / places.len() as f32;
-            let (direction, target) = (light.direction, light.target);
-            each(Arriving { lamp: number, place, direction, scale, target });
-        }
-    }
-}
 
 /// The lamps of a scene: where they are, or at infinity.
 pub(super) struct Lamps {
@@ -60,7 +23,7 @@ impl Lamps {
     pub fn new(scene: &Scene, at_infinity: bool) -> Self {
         let in_the_middle = || {
             let mut all = Vec::new();
-            arriving(scene, middle(scene), &mut |light| all.push(light));
+            arriving(scene, middle(scene), 0.0, &mut |light| all.push(light));
             all
         };
         Self { everywhere: at_infinity.then(in_the_middle) }
@@ -70,15 +33,9 @@ impl Lamps {
     pub fn arriving(&self, scene: &Scene, point: Vec3, each: &mut impl FnMut(Arriving)) {
         match &self.everywhere {
             Some(all) => all.iter().for_each(|light| each(*light)),
-            None => arriving(scene, point, each),
+            None => arriving(scene, point, 0.0, each),
         }
     }
-}
-
-/// The middle of a scene.
-fn middle(scene: &Scene) -> Vec3 {
-    let (low, high) = scene.geometry.bounds();
-    (low + high) * 0.5
 }
 
 /// A place to be shaded.
@@ -113,40 +70,11 @@ pub(crate) struct Lighting<'a, const N: usize, M> {
     pub shadows: &'a Occlusion,
 }
 
-/// The radiance that stands for all light that is not followed: that of the surroundings, and a fraction of what lamps would make of a
-/// white diffuser that faces them in the middle of the scene.
-pub(crate) fn ambient<const N: usize, M>(
-    scene: &Scene,
-    pass: &Pass<N, M>,
-    group_of: &[usize],
-    fraction: f32,
-) -> Vec<Lanes<N>> {
-    let mut all = vec![Lanes::default(); group_of.iter().max().map_or(0, |last| last + 1)];
-    arriving(scene, middle(scene), &mut |light| {
-        all[group_of[light.lamp]] += pass.emission[light.lamp] * (light.scale * FRAC_1_PI * fraction);
-    });
-    for &lamp in &scene.surroundings {
-        all[group_of[lamp]] += match &scene.lamps[lamp].form {
-            LampForm::Image(image) => {
-                pass.emission[lamp] * (image.integral() / (4.0 * std::f64::consts::PI)) as f32
-            }
-            _ => pass.emission[lamp],
-        };
-    }
-    all
-}
-
 impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
-    /// Adds `weight` times the radiance of a cone in which nothing is followed: that of the surroundings (reflection
-    /// mapping, Blinn and Newell 1976; book figure 4.2), else what stands for all light.
-    pub fn add_around(&self, direction: Vec3, radius: f32, weight: &Lanes<N>, to: &mut [Lanes<N>]) {
-        if self.scene.surroundings.is_empty() {
-            to.iter_mut().zip(self.ambient).for_each(|(sum, light)| *sum += *weight * *light);
-        }
-        for &lamp in &self.scene.surroundings {
-            let light = self.pass.surroundings_in_cone(self.scene, lamp, direction, radius);
-            to[self.group_of[lamp]] += *weight * light;
-        }
+    /// Adds `weight` times the radiance of a cone in which nothing is followed.
+    fn add_around(&self, direction: Vec3, radius: f32, weight: &Lanes<N>, to: &mut [Lanes<N>]) {
+        let light = (self.group_of, self.ambient);
+        add_around(self.scene, self.pass, light, direction, radius, weight, to);
     }
 
     /// Adds the radiance of the surroundings.
@@ -199,6 +127,8 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Lighting<'_, N, M> {
     /// The same with a model given.
     #[inline(never)]
     fn shade_with(&self, model: &M, place: &Place, parts: &mut Vec<Lanes<N>>) -> Lanes<N> {
+        // Compiled once, not at every call.
+        let model: &dyn IlluminationModel<N> = model;
         let groups = self.ambient.len();
         parts.clear();
         parts.resize(PARTS * groups, Lanes::default());

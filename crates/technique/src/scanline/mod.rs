@@ -21,7 +21,6 @@ use crate::film::{Film, TOO_LARGE, TileFilm};
 use crate::lanes::Pass;
 use crate::passes::{Job, TileCounts, TileRenderer, auxiliary_layers};
 use crate::path::Primary;
-use crate::sequence::Sequence;
 use crate::settings::{Antialiasing, Interpolation, Layer, Settings, Shading, Technique};
 use ahead::{Channels, ShadedPass, channels_of_lanes};
 use edges::Quad;
@@ -207,7 +206,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
 
 impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
     /// One sample of every pixel of a band, number `index` of those that are scrambled as `stream` says. All pixels are sampled at the
-    /// same place, so that edges move by whole images.
+    /// same place, so that edges move by whole images; this place is returned.
     fn expose_sample(
         &self,
         job: &Job,
@@ -216,14 +215,15 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         band: &mut Band<N>,
         channels: &mut [f32],
         seen: &mut [Primary],
-    ) {
-        let [u, v, ..] = Sequence::new(job.settings.seed, 0, index, stream).next4();
+    ) -> [f32; 2] {
+        let [u, v, ..] = job.numbers.sequence(job.settings.seed, 0, index, stream).next4();
         let at = Sampled { area, offset: [job.filter.offset(u), job.filter.offset(v)] };
         // Channels hold all passes.
         let at_once = if self.channels.is_some() || self.fast.is_some() { self.passes.len() } else { 1 };
         for passes in self.passes.chunks(at_once.max(1)) {
             self.expose(job, passes, &at, band, &mut Exposed { channels, seen });
         }
+        at.offset
     }
 }
 
@@ -239,11 +239,20 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Scanlin
         for sample in tile.claim(samples).into_iter().flatten() {
             channels.fill(0.0);
             let (index, stream) = (sample / replicates, sample % replicates);
-            if self.coverage {
+            let weight = if self.coverage {
                 self.cover(job, tile, (sample, index, stream), &mut band, &mut channels);
+                1.0
             } else {
-                self.expose_sample(job, tile.area, (index, stream), &mut band, &mut channels, &mut seen);
-            }
+                let place = (index, stream);
+                job.filter.weight(self.expose_sample(
+                    job,
+                    tile.area,
+                    place,
+                    &mut band,
+                    &mut channels,
+                    &mut seen,
+                ))
+            };
             // All at once, which takes no branch.
             let tells = (self.sees || replicates > 1) && !self.coverage;
             let sound = !tells && channels.iter().fold(true, |sound, v| sound & (v.abs() < TOO_LARGE));
@@ -254,6 +263,9 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Scanlin
                         haze.apply(seen, values);
                     }
                     auxiliary_layers(job, seen, sample, values);
+                }
+                if weight != 1.0 {
+                    values.iter_mut().for_each(|v| *v *= weight);
                 }
                 if sound || values.iter().all(|v| v.abs() < TOO_LARGE) {
                     tile.add(i, values);

@@ -9,8 +9,9 @@
 //! than that casts no shadow where it touches.
 
 use super::edges::{Corner, EdgeTable};
-use super::lighting::{Arriving, Place, places_on};
+use super::lighting::Place;
 use super::surfaces::Surfaces;
+use crate::direct_light::{Arriving, ON_LAMP, places_on};
 use glam::{DMat4, DVec3, DVec4, Vec3};
 use illuminant_scene::{Camera, LampForm, Scene};
 use rayon::prelude::*;
@@ -192,6 +193,7 @@ impl ShadowMap {
             LampForm::Surface(lamp) => lamp.place(&scene.geometry, u),
             LampForm::Point { position }
             | LampForm::Luminaire { position, .. }
+            | LampForm::Photometric { position, .. }
             | LampForm::Spot { position, .. } => *position,
             LampForm::Uniform | LampForm::Image(_) => return Self { position: None, views: Vec::new() },
         };
@@ -228,7 +230,7 @@ impl ShadowMaps {
     /// Scans a scene from all lamps.
     pub fn new(scene: &Scene, surfaces: &Surfaces, size: u32) -> Self {
         let of_lamp = |lamp: &illuminant_scene::Lamp| -> Vec<ShadowMap> {
-            let places = places_on(&lamp.form).iter();
+            let places = places_on(&lamp.form, &ON_LAMP).iter();
             places.map(|&u| ShadowMap::new(&lamp.form, scene, surfaces, u, size)).collect()
         };
         let mut of_lamps: Vec<Vec<ShadowMap>> = scene.lamps.iter().map(of_lamp).collect();

@@ -1,8 +1,9 @@
 //! What stands between a surface and a lamp.
 
-use super::lighting::{Arriving, Place};
+use super::lighting::Place;
 use super::shadow_map::ShadowMaps;
 use super::surfaces::Surfaces;
+use crate::direct_light::Arriving;
 use crate::settings::Shadows;
 use illuminant_scene::Scene;
 
