@@ -6,11 +6,12 @@ use crate::description::{
     ShapeData, Sides, SurfaceData, UpAxis,
 };
 use crate::environment::EnvironmentImage;
-use crate::lamp::{Lamp, LampForm, SurfaceLamp, spot_solid_angle};
+use crate::lamp::{Lamp, LampForm, spot_solid_angle};
 use crate::lamp_chooser::{LampChooser, chooser};
 use crate::medium::{Density, Medium, Phase};
 use crate::photometry::{Source, absolute_spectrum};
 use crate::skin::{Skin, Textures};
+use crate::surface_lamp::SurfaceLamp;
 use crate::{Camera, Geometry, Lens};
 use glam::{DVec3, Mat3, Vec3};
 use illuminant_color::RgbSystem;
