@@ -1,12 +1,15 @@
-"""How much memory an image takes while it is rendered, and whether that is free."""
+"""How much memory an image and its shadow maps take while it is rendered, and whether that is free."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from illuminant import machine
 from illuminant.errors import MachineError
-from illuminant.settings import Settings
+from illuminant.settings import SCANLINE, Settings
 
-__all__ = ["check_memory", "memory_needed"]
+__all__ = ["check_memory", "check_shadow_maps", "memory_needed", "shadow_map_memory"]
 
 
 def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
@@ -51,4 +54,40 @@ def check_memory(settings: Settings, pixels: int, lamps: int = 1) -> None:
         raise MachineError(
             f"An image of {pixels:,} pixels with these layers needs about {machine.size(needed)} of memory, "
             f"and {machine.size(free)} are free: choose a smaller --size or fewer layers."
+        )
+
+
+def shadow_map_memory(settings: Settings, description: Mapping[str, Any]) -> int:
+    """Bytes that the shadow maps of a scene take at most: 4 a texel.
+
+    Parallel light has one map, a lamp without size the six sides of a cube, and a surface such a cube at four places.
+
+    Args:
+        settings: how shadows are found.
+        description: of the scene, with its `lights` and `objects`.
+
+    Example:
+        >>> scene = {"lights": [{"kind": "point"}, {"kind": "directional"}], "objects": [{"emission": None}]}
+        >>> shadow_map_memory(Settings(technique="phong", shadows="maps:1024"), scene) // 2**20
+        28
+    """
+    kind, _, texels = settings.shadows.partition(":")
+    if kind != "maps" or settings.technique not in SCANLINE:
+        return 0
+    maps = sum({"directional": 1, "environment": 0}.get(light["kind"], 6) for light in description["lights"])
+    maps += sum(4 * 6 for thing in description["objects"] if thing["emission"] is not None)
+    return maps * 4 * int(texels) ** 2
+
+
+def check_shadow_maps(settings: Settings, description: Mapping[str, Any]) -> None:
+    """Refuse shadow maps that do not fit into the memory that is free.
+
+    Raises:
+        MachineError: one sentence with both amounts.
+    """
+    needed, free = shadow_map_memory(settings, description), machine.memory_available()
+    if free is not None and needed > free:
+        raise MachineError(
+            f"The shadow maps of this scene need about {machine.size(needed)} of memory, and {machine.size(free)} are "
+            "free: choose smaller ones, such as --shadows maps:512, or --shadows rays."
         )

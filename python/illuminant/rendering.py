@@ -35,7 +35,7 @@ from illuminant import machine
 from illuminant.core import core, embree
 from illuminant.errors import Error, Interrupted, MachineError, UsageError
 from illuminant.examination import WORDS, refuse
-from illuminant.film_memory import check_memory
+from illuminant.film_memory import check_memory, check_shadow_maps
 from illuminant.image import Image
 from illuminant.settings import SCANLINE, resolve
 
@@ -177,6 +177,7 @@ class Job:
             thing["emission"] is not None for thing in description["objects"]
         )
         check_memory(self.settings, width * height, lamps)
+        check_shadow_maps(self.settings, description)
         embree()
         self._began = clock.monotonic()
         try:

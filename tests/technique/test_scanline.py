@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import illuminant
-from illuminant.errors import UsageError
+from illuminant.errors import MachineError, UsageError
 from illuminant.scene import Scene
 
 LIGHTS = {
@@ -100,6 +100,13 @@ def test_every_technique_takes_maps():
         options = {"subdivide": 64.0}
         lit = luminance(scene, technique, **options).sum()
         assert luminance(scene, technique, shadows="maps", **options).sum() < 0.97 * lit
+
+
+def test_maps_beyond_the_memory_are_refused(monkeypatch):
+    monkeypatch.setattr("illuminant.machine.memory_available", lambda: 500_000_000)
+    with pytest.raises(MachineError, match="shadow maps of this scene need about"):
+        luminance(stage("lamp"), shadows="maps:16384")
+    luminance(stage("sun"), shadows="maps:1024")
 
 
 # Area coverage

@@ -18,6 +18,9 @@ const BINS: usize = 12;
 /// The least and the most part of the choices that go to lamps with a place, where there are others too.
 const SHARE: [f32; 2] = [0.1, 0.9];
 
+/// The least chance of one of two halves that both bring something.
+const LEAST: f32 = 1e-6;
+
 /// Where lamps are, into which directions they shine, and how strongly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
@@ -41,7 +44,8 @@ impl Extent {
     /// Both together.
     fn union(&self, other: &Self) -> Self {
         let (a, b) = if self.facing >= other.facing { (self, other) } else { (other, self) };
-        let between = a.axis.dot(b.axis).clamp(-1.0, 1.0).acos();
+        // Not by the cosine, which says little of small angles.
+        let between = a.axis.cross(b.axis).length().atan2(a.axis.dot(b.axis));
         let (axis, facing) = if (between + b.facing).min(PI) <= a.facing {
             (a.axis, a.facing)
         } else {
@@ -246,7 +250,9 @@ impl LightTree {
         let next = node.next as usize;
         let [a, b] = [next, next + 1].map(|i| self.nodes[i].bounds.importance(point));
         let sum = a + b;
-        (sum > 0.0 && sum.is_finite()).then(|| a / sum)
+        // Neither of two that both bring something rounds to none.
+        let [least, most] = if a > 0.0 && b > 0.0 { [LEAST, 1.0 - LEAST] } else { [0.0, 1.0] };
+        (sum > 0.0 && sum.is_finite()).then(|| (a / sum).clamp(least, most))
     }
 }
 
@@ -481,6 +487,35 @@ mod tests {
                 by_flux += second / (exact * exact) - 1.0;
             }
             assert!(by_flux > 5.0 * by_tree, "{faces}: {by_flux} {by_tree}");
+        }
+    }
+
+    #[test]
+    fn nearly_parallel_spots_keep_their_edges() {
+        // Spots with a hard edge, whose axes differ by less than the cosine can tell.
+        let spot = |i: u32| {
+            let middle = place(i, 0.5);
+            Some(Extent {
+                low: middle,
+                high: middle,
+                axis: (Vec3::NEG_Z + (place(i + 900, 2.0) - Vec3::ONE) * 4e-4).normalize(),
+                facing: 0.0,
+                spread: 0.6,
+                two_sided: false,
+                strength: 1.0,
+            })
+        };
+        let extents: Vec<Option<Extent>> = (0..64).map(spot).collect();
+        let tree = LightTree::new(&extents, &[0.0; 64]);
+        for (lamp, e) in extents.iter().enumerate() {
+            let Some(e) = e else { continue };
+            let across = e.axis.any_orthonormal_vector();
+            for i in 0..64 {
+                let turned = glam::Quat::from_axis_angle(e.axis, i as f32 * 0.1) * across;
+                let (sin, cos) = (0.6f32 - 1e-4).sin_cos();
+                let point = e.middle() + (e.axis * cos + turned * sin) * 30.0;
+                assert!(tree.probability(&[], point, Vec3::Z, lamp) > 0.0, "{lamp} {i}");
+            }
         }
     }
 

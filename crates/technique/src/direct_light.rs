@@ -24,6 +24,15 @@ pub(crate) struct Arriving {
     pub pdf: Option<f32>,
 }
 
+/// Where a ray to a light must be free, from a point: its span, and the part of it that counts.
+#[inline(always)]
+pub(crate) fn way_to(origin: Vec3, direction: Vec3, target: Option<Vec3>) -> (Vec3, f32) {
+    match target {
+        Some(target) => (target - origin, 1.0),
+        None => (direction, f32::INFINITY),
+    }
+}
+
 /// Of places on an emitting surface those at which a lamp is asked: one is enough for what has no size, none for what is all around.
 pub(crate) fn places_on<'a>(form: &LampForm, on_surface: &'a [[f32; 2]]) -> &'a [[f32; 2]] {
     match form {
@@ -73,7 +82,7 @@ pub(crate) fn ambient<const N: usize, M>(
     fraction: f32,
 ) -> Vec<Lanes<N>> {
     let mut all = vec![Lanes::default(); group_of.iter().max().map_or(0, |last| last + 1)];
-    arriving(scene, middle(scene), 0.0, &mut |light| {
+    arriving(scene, middle(scene), scene.camera.shutter[0], &mut |light| {
         all[group_of[light.lamp]] += pass.emission[light.lamp] * (light.scale * FRAC_1_PI * fraction);
     });
     for &lamp in &scene.surroundings {

@@ -8,7 +8,7 @@ use crate::wavelength::Wavelength;
 use glam::Vec3;
 use illuminant_illumination::{Illumination, IlluminationModel, Index, Prepare, REPRESENTATIVE_NM, Surface};
 use illuminant_sampling::{Basis, Lanes, Role};
-use illuminant_scene::{LampForm, Scene, TexturePoint};
+use illuminant_scene::{LampForm, LampSample, Scene, TexturePoint};
 use std::ops::Range;
 
 /// The index of refraction of a medium.
@@ -196,6 +196,15 @@ impl<const N: usize, M> Pass<N, M> {
                 image.radiance(image.uv(direction), &self.position, &self.emission[lamp])
             }
             _ => self.emission[lamp],
+        }
+    }
+
+    /// The light that a lamp gives in the direction in which it was asked.
+    #[inline(always)]
+    pub fn emission_to(&self, scene: &Scene, lamp: usize, light: &LampSample) -> Lanes<N> {
+        match light.uv {
+            Some(_) => self.surroundings(scene, lamp, light.direction),
+            None => self.emission[lamp],
         }
     }
 

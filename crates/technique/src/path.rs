@@ -4,6 +4,7 @@
 //! Where a path goes never depends on the lanes, only on seed, pixel, sample and the brightness of materials; so every
 //! spectral sampling follows the same paths, and `1nm` may follow them pass by pass.
 
+use crate::direct_light::way_to;
 use crate::interaction::{Interaction, next_surface};
 use crate::lanes::Pass;
 use crate::media::Media;
@@ -164,6 +165,20 @@ struct State<const N: usize> {
     cone: [f32; 2],
     /// By what distances in the air are drawn, once they are.
     draws: Option<Draws>,
+}
+
+impl<const N: usize> State<N> {
+    /// Russian roulette by brightness: whether the path goes on, which then counts for those that do not.
+    #[inline(always)]
+    fn survives(&mut self, u: f32) -> bool {
+        let survival = self.brightness.min(0.98);
+        if u >= survival {
+            return false;
+        }
+        self.throughput *= survival.recip();
+        self.brightness /= survival;
+        true
+    }
 }
 
 impl PathTracer {
@@ -328,13 +343,8 @@ impl PathTracer {
         if drawn.transmitted && model.bounds_media() {
             path.media = met.beyond;
         }
-        if segment >= ROULETTE_FROM {
-            let survival = path.brightness.min(0.98);
-            if u_survival >= survival {
-                return false;
-            }
-            path.throughput *= survival.recip();
-            path.brightness /= survival;
+        if segment >= ROULETTE_FROM && !path.survives(u_survival) {
+            return false;
         }
         path.u_lamp = next_lamp;
         path.ray = Ray { origin: point.offset(direction), direction, time: path.ray.time };
@@ -385,18 +395,12 @@ impl PathTracer {
             weight = light.scale * local.z.abs() / pdf * power_heuristic(pdf, model.pdf(at, local));
         }
         let origin = point.offset(light.direction);
-        let (span, tfar) = match light.target {
-            Some(target) => (target - origin, 1.0),
-            None => (light.direction, f32::INFINITY),
-        };
+        let (span, tfar) = way_to(origin, light.direction, light.target);
         probe.occlusion(origin, span, tfar);
         if geometry.is_occluded(origin, span, time, tfar) {
             return;
         }
-        let emission = match light.uv {
-            Some(_) => pass.surroundings(scene, lamp, light.direction),
-            None => pass.emission[lamp],
-        };
+        let emission = pass.emission_to(scene, lamp, &light);
         let mut arriving = path.throughput * f * emission * weight;
         let medium = if local.z * at.to_viewer.z > 0.0 { path.media } else { met.beyond };
         if let Some(kept) = pass.transmittance(medium.innermost(), span.length().min(f32::MAX)) {
@@ -436,27 +440,16 @@ impl PathTracer {
                 Some(pdf) => light.scale / pdf * power_heuristic(pdf, p),
                 None => light.scale / probability,
             };
-            let (span, tfar) = match light.target {
-                Some(target) => (target - place, 1.0),
-                None => (light.direction, f32::INFINITY),
-            };
+            let (span, tfar) = way_to(place, light.direction, light.target);
             probe.occlusion(place, span, tfar);
             if !scene.geometry.is_occluded(place, span, time, tfar) {
-                let emission = match light.uv {
-                    Some(_) => pass.surroundings(scene, lamp, light.direction),
-                    None => pass.emission[lamp],
-                };
+                let emission = pass.emission_to(scene, lamp, &light);
                 let left = medium.left_of(place, span, tfar, sequence);
                 radiance[path.bundle + group_of[lamp]] += path.throughput * emission * left * (weight * p);
             }
         }
-        if segment >= ROULETTE_FROM {
-            let survival = path.brightness.min(0.98);
-            if u_survival >= survival {
-                return false;
-            }
-            path.throughput *= survival.recip();
-            path.brightness /= survival;
+        if segment >= ROULETTE_FROM && !path.survives(u_survival) {
+            return false;
         }
         let direction = phase.sample(along, [u, v]);
         let pdf = phase.value(along.dot(direction));

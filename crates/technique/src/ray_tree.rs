@@ -9,7 +9,7 @@
 //! over the samples of a pixel, one ray a query, what is asked for: where on a lamp, about which facet a rough surface mirrors, when
 //! while the shutter is open, and through which point of the lens.
 
-use crate::direct_light::{Arriving, ON_LAMP, add_around, arriving_from};
+use crate::direct_light::{Arriving, ON_LAMP, add_around, arriving_from, way_to};
 use crate::interaction::{Interaction, next_surface};
 use crate::lanes::Pass;
 use crate::media::Media;
@@ -358,10 +358,7 @@ impl RayTree {
             return;
         }
         let origin = point.offset(light.direction);
-        let (span, tfar) = match light.target {
-            Some(target) => (target - origin, 1.0),
-            None => (light.direction, f32::INFINITY),
-        };
+        let (span, tfar) = way_to(origin, light.direction, light.target);
         traced.probe.occlusion(origin, span, tfar);
         if scene.geometry.is_occluded(origin, span, branch.ray.time, tfar) {
             return;

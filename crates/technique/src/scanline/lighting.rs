@@ -23,7 +23,7 @@ impl Lamps {
     pub fn new(scene: &Scene, at_infinity: bool) -> Self {
         let in_the_middle = || {
             let mut all = Vec::new();
-            arriving(scene, middle(scene), 0.0, &mut |light| all.push(light));
+            arriving(scene, middle(scene), scene.camera.shutter[0], &mut |light| all.push(light));
             all
         };
         Self { everywhere: at_infinity.then(in_the_middle) }
@@ -33,7 +33,7 @@ impl Lamps {
     pub fn arriving(&self, scene: &Scene, point: Vec3, each: &mut impl FnMut(Arriving)) {
         match &self.everywhere {
             Some(all) => all.iter().for_each(|light| each(*light)),
-            None => arriving(scene, point, 0.0, each),
+            None => arriving(scene, point, scene.camera.shutter[0], each),
         }
     }
 }

@@ -48,5 +48,5 @@ fn is_hidden(scene: &Scene, place: &Place, light: &Arriving) -> bool {
         Some(target) => (target - origin, 0.999),
         None => (light.direction, f32::INFINITY),
     };
-    scene.geometry.is_occluded(origin, span, 0.0, tfar)
+    scene.geometry.is_occluded(origin, span, scene.camera.shutter[0], tfar)
 }
