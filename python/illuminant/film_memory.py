@@ -31,7 +31,8 @@ def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
     channels += 3 * lamps if settings.lamps else 0
     if settings.keep_spectra:
         channels += _lanes(settings.sampling)
-    return pixels * (36 * channels + 4)
+    # Paths from lamps have sums of their own.
+    return pixels * ((36 + 16 * settings.caustics) * channels + 4 * (1 + settings.caustics))
 
 
 def _lanes(sampling: str) -> int:
@@ -74,7 +75,10 @@ def shadow_map_memory(settings: Settings, description: Mapping[str, Any]) -> int
     kind, _, texels = settings.shadows.partition(":")
     if kind != "maps" or settings.technique not in SCANLINE:
         return 0
-    maps = sum({"directional": 1, "environment": 0}.get(light["kind"], 6) for light in description["lights"])
+    maps = sum(
+        {"directional": 1, "environment": 0, "sky": int(bool(light.get("sun")))}.get(light["kind"], 6)
+        for light in description["lights"]
+    )
     maps += sum(4 * 6 for thing in description["objects"] if thing["emission"] is not None)
     return maps * 4 * int(texels) ** 2
 

@@ -14,7 +14,7 @@ import re
 import tomllib
 from typing import Any, get_args
 
-from illuminant import coefficient_schema, schema, texture_schema
+from illuminant import coefficient_schema, pattern_schema, schema, texture_schema
 from illuminant.quantities import FITTING, QUANTITIES
 from illuminant.report import kind_of
 
@@ -130,6 +130,9 @@ def scene_file_reference() -> str:
         _table("An image in place of a roughness", texture_schema.SlopeImage),
         _table("`bump`", texture_schema.HeightImage),
         _table("`normal_map`", texture_schema.NormalImage),
+        _table("A pattern in place of a reflectance", pattern_schema.ColourPattern),
+        _table("A pattern in place of a roughness", pattern_schema.SlopePattern),
+        _table("A pattern for `bump`", pattern_schema.HeightPattern),
         "## Objects\n",
         (schema.Object.__doc__ or "").strip().replace("\n    ", "\n") + "\n",
         SHAPES,
@@ -198,8 +201,8 @@ def _type(field: Any, name: str) -> str:
     annotation = field.annotation
     text = repr(annotation)
     for form, words in {
-        "ColourImage": "spectrum or image",
-        "SlopeImage": "number or image",
+        "ColourImage": "spectrum, image or pattern",
+        "SlopeImage": "number, image or pattern",
         "HeightImage": "table",
         "NormalImage": "table",
         "dict[str": "table of tables",

@@ -173,9 +173,8 @@ class Job:
         width, height = _pixels(self.scene)
         self.width, self.height = width, height
         description = self.scene.description
-        lamps = len(description["lights"]) + sum(
-            thing["emission"] is not None for thing in description["objects"]
-        )
+        lamps = sum(1 + bool(light.get("sun")) for light in description["lights"])
+        lamps += sum(thing["emission"] is not None for thing in description["objects"])
         check_memory(self.settings, width * height, lamps)
         check_shadow_maps(self.settings, description)
         embree()
@@ -428,7 +427,9 @@ def render(
     time: str | float | None = None,
     error: str | float | None = None,
     sampler: str | None = None,
+    caustics: bool | None = None,
     threshold: float | None = None,
+    cones: bool | None = None,
     light_centres: str | None = None,
     ambient: float | None = None,
     interpolation: str | None = None,
@@ -464,7 +465,11 @@ def render(
         time: end when this time is up: seconds, or `"30s"`, `"5m"`.
         error: end at this relative standard error: a fraction, or `"1%"`.
         sampler: which random numbers; default `sobol-owen`, or `random`, `stratified`, `jittered`, `poisson-disk`.
+        caustics: let `path` follow light from the lamps too, where mirrors and smooth glass send it on surfaces that
+            scatter it; without, it finds such light by chance, and that of lamps without size never. Default False.
         threshold: weight below which `raytrace` and `distributed` follow a ray no more; default 0.002.
+        cones: let the rays of `raytrace` be cones, which see how much of a pixel, of a lamp and of a mirror's image a
+            surface covers; one sample a pixel is then smooth, and more are the same. Default False.
         light_centres: where they ask lamps that have an area; default `jittered`, or `random`, or `fixed:N`.
         ambient: ambient light of all techniques but `path`; default 0.15 of what lamps make of a white diffuser.
         interpolation: where scanline techniques interpolate; default `object`, or `screen`.
@@ -509,7 +514,9 @@ def render(
         time=time,
         error=error,
         sampler=sampler,
+        caustics=caustics,
         threshold=threshold,
+        cones=cones,
         light_centres=light_centres,
         ambient=ambient,
         interpolation=interpolation,

@@ -23,6 +23,7 @@ from illuminant.coefficient_schema import ALL_MODELS, Coefficients
 from illuminant.core import core
 from illuminant.curves import Curves, curve_from_spectrum
 from illuminant.errors import DataError, ImageError, suggestion
+from illuminant.pattern_schema import ColourPattern, SlopePattern
 from illuminant.photometry_file import Photometry
 from illuminant.quantities import FITTING, QUANTITIES
 from illuminant.report import Path, Report, found, read_table
@@ -50,6 +51,7 @@ NAMES_OF_SOURCES = {
     "spot": "a spot light",
     "directional": "a directional light",
     "environment": "an environment",
+    "sky": "a sky",
     "environment image": "an environment image",
     "fog": "fog",
 }
@@ -83,7 +85,7 @@ class Resolver:
         self.directory = FilePath(directory)
         self.curves = Curves(report, frame.get("spectra"), directory, (first, last))
         self.images: dict[str, np.ndarray] = {}
-        self.textures = Textures(report, self.curves, directory)
+        self.textures = Textures(report, self.curves, directory, self.up, self.unit_m)
 
     def all_images(self) -> dict[str, np.ndarray]:
         """The images of environments and of surfaces, by the names that the description has for them."""
@@ -171,7 +173,7 @@ class Resolver:
             self.report.add((*path, "grain"), "must have a length", kind="direction")
         if table.finish is None or "finish" in bad:
             along = table.roughness
-            if isinstance(along, SlopeImage):
+            if isinstance(along, (SlopeImage, SlopePattern)):
                 along = 0.5 * (along.black + along.white)
             across = along if table.roughness_across is None else table.roughness_across
             sigma = None if table.sigma_nm is None else float(table.sigma_nm)
@@ -248,7 +250,7 @@ class Resolver:
     ) -> Spectrum | None:
         """A fraction of light, or the mean of an image of it, which then goes to the skin."""
         value = getattr(table, key)
-        if not isinstance(value, ColourImage) or key in bad:
+        if not isinstance(value, (ColourImage, ColourPattern)) or key in bad:
             return self._spectrum(table, bad, key, "reflectance", path, default)
         resolved = self.textures.colour(value, (*path, key), finished=finished)
         if resolved is None:
@@ -261,7 +263,7 @@ class Resolver:
     ) -> None:
         """Images of roughness and of relief."""
         roughness = getattr(table, "roughness", None)
-        if isinstance(roughness, SlopeImage) and "roughness" not in bad:
+        if isinstance(roughness, (SlopeImage, SlopePattern)) and "roughness" not in bad:
             if "roughness_across" in raw:
                 message = "does not go with an image of roughness, which is the same along and across"
                 self.report.add((*path, "roughness_across"), message, kind="exactly-one")
@@ -272,7 +274,7 @@ class Resolver:
         for key in ("bump", "normal_map"):
             image = getattr(table, key, None)
             if image is not None and key not in bad:
-                skin["relief"] = self.textures.relief(image, (*path, key), self.unit_m)
+                skin["relief"] = self.textures.relief(image, (*path, key))
 
     def _coefficients(self, tables: dict[str, Any] | None, path: Path) -> list[dict[str, Any]]:
         """What historical models are told, one entry for each that is named."""
@@ -365,6 +367,11 @@ class Resolver:
         if table is None or (web is None and "photometry" in raw and "photometry" not in bad):
             return None
         entry: dict[str, Any] = {"name": name, "kind": table.kind}
+        if table.kind == "sky":
+            for key in ("turbidity", "ground_albedo", "elevation_deg", "azimuth_deg"):
+                entry[key] = float(getattr(table, key))
+            entry |= {"sun": table.sun, "up": table.up or self.up}
+            return None if len(self.report.problems) > before else entry
         source = table.kind
         if table.kind == "environment":
             source = "environment image" if "image" in raw else "environment"

@@ -26,7 +26,7 @@ from illuminant.spectrum_schema import SpectrumTable, SpectrumValue
 from illuminant.table import Crop, Fraction, Number, Positive, Range, Size, Table, Vector, key
 from illuminant.texture_schema import (
     ColourValue,
-    HeightImage,
+    HeightValue,
     NormalImage,
     SlopeValue,
 )
@@ -58,6 +58,7 @@ __all__ = [
     "Render",
     "Rotation",
     "SceneFile",
+    "Sky",
     "SpectrumTable",
     "SpectrumValue",
     "Sphere",
@@ -168,8 +169,14 @@ class Render(Table):
     sampler: Literal["sobol-owen", "random", "stratified", "jittered", "poisson-disk"] | None = key(
         "which random numbers", '"sobol-owen"', None
     )
+    caustics: bool | None = key(
+        "whether `path` finds from the lamps what mirrors and smooth glass make of their light", "true", None
+    )
     threshold: Annotated[float, Field(ge=0, lt=1)] | None = key(
         "weight below which `raytrace` and `distributed` follow a ray no more", "0.002", None
+    )
+    cones: bool | None = key(
+        "whether the rays of `raytrace` are cones, which see what part of them a surface covers", "true", None
     )
     light_centres: Annotated[str, Field(pattern=r"^(jittered|random|fixed:[1-9]\d{0,3})$")] | None = key(
         "where `raytrace` and `distributed` ask lamps that have an area", '"jittered"', None
@@ -207,7 +214,11 @@ class Render(Table):
     filter: Filter | None = key("reconstruction filter", '{ kind = "gaussian", radius = 1.5 }', None)
 
 
-BUMP = key("image of heights that perturb the normal", '{ image = "images/dents.png", height = 0.001 }', None)
+BUMP = key(
+    "image or pattern of heights that perturb the normal",
+    '{ image = "images/dents.png", height = 0.001 }',
+    None,
+)
 NORMAL_MAP = key("image of normals that perturb the normal", '{ image = "images/normals.png" }', None)
 
 
@@ -225,7 +236,7 @@ class Diffuse(Table):
     reflectance: ColourValue = key(
         "fraction of light reflected, 0 to 1, or an image of it", '"ColorChecker/dark skin"'
     )
-    bump: HeightImage | None = BUMP
+    bump: HeightValue | None = BUMP
     normal_map: NormalImage | None = NORMAL_MAP
     coefficients: dict[str, Any] | None = COEFFICIENTS
 
@@ -269,7 +280,7 @@ class Conductor(Table):
     grain: Vector | None = GRAIN
     distribution: Literal["beckmann", "ggx"] = DISTRIBUTION
     finish: str | None = FINISH
-    bump: HeightImage | None = BUMP
+    bump: HeightValue | None = BUMP
     normal_map: NormalImage | None = NORMAL_MAP
     coefficients: dict[str, Any] | None = COEFFICIENTS
 
@@ -286,7 +297,7 @@ class Dielectric(Table):
     grain: Vector | None = GRAIN
     distribution: Literal["beckmann", "ggx"] = DISTRIBUTION
     finish: str | None = FINISH
-    bump: HeightImage | None = BUMP
+    bump: HeightValue | None = BUMP
     normal_map: NormalImage | None = NORMAL_MAP
     coefficients: dict[str, Any] | None = COEFFICIENTS
     absorption: SpectrumValue | None = key(
@@ -323,7 +334,7 @@ class Coated(Table):
     grain: Vector | None = GRAIN
     distribution: Literal["beckmann", "ggx"] = DISTRIBUTION
     finish: str | None = FINISH
-    bump: HeightImage | None = BUMP
+    bump: HeightValue | None = BUMP
     normal_map: NormalImage | None = NORMAL_MAP
     coefficients: dict[str, Any] | None = COEFFICIENTS
     pigment: ColourValue | None = key(
@@ -474,6 +485,34 @@ class Environment(Quantities):
     )
 
 
+class Sky(Table):
+    """The clear sky and the sun in it, by the spectral model of Hošek and Wilkie (2012, 2013), in its absolute units.
+
+    Below the horizon there is nothing. The sun is a disc of 0.51°, and a lamp of its own: `NAME sun`.
+    """
+
+    kind: Literal["sky"] = key("the kind of light", '"sky"')
+    elevation_deg: Annotated[float, Field(ge=0, le=90)] = key(
+        "how high the sun stands above the horizon, in degrees", "35.0"
+    )
+    azimuth_deg: Number = key(
+        "where it stands, in degrees clockwise seen from above: from -z towards +x in a y-up world, from +y towards +x "
+        "in a z-up one",
+        "120.0",
+        0.0,
+    )
+    turbidity: Annotated[float, Field(ge=1, le=10)] = key(
+        "how hazy the air is: 2 very clear, 3 clear, 6 warm and moist, 10 hazy", "2.5", 3.0
+    )
+    ground_albedo: Annotated[float, Field(ge=0, le=1)] = key(
+        "what the ground around reflects back to the sky", "0.3", 0.2
+    )
+    sun: bool = key("whether the disc of the sun is seen and shines", "false", True)
+    up: Literal["y", "z"] | None = key(
+        "axis that points to the zenith; default the scene's `up`", '"z"', None
+    )
+
+
 class Fog(Quantities):
     """Fog that what is seen fades into, linearly from `start` to `end` (book eq 4.10).
 
@@ -529,7 +568,7 @@ class Medium(Table):
 
 
 MaterialValue = Diffuse | Conductor | Dielectric | Coated | Named | ThinFilter | Emitter
-LightValue = Point | Spot | Directional | Environment
+LightValue = Point | Spot | Directional | Environment | Sky
 
 KINDS_OF_MATERIAL: dict[str, type[Table]] = {
     "diffuse": Diffuse,
@@ -545,6 +584,7 @@ KINDS_OF_LIGHT: dict[str, type[Table]] = {
     "spot": Spot,
     "directional": Directional,
     "environment": Environment,
+    "sky": Sky,
 }
 
 KINDS_OF_ATMOSPHERE: dict[str, type[Table]] = {"fog": Fog, "distance": Distance}

@@ -86,6 +86,8 @@ class Settings:
         error: relative standard error at which to end (0.01 is 1 %), or None.
         sampler: which random numbers: `sobol-owen`, `random`, `stratified`, `jittered` or `poisson-disk`.
         threshold: weight below which ray tracing follows a ray no more.
+        caustics: whether `path` finds from the lamps what mirrors and smooth glass make of their light.
+        cones: whether the rays of `raytrace` are cones.
         light_centres: where ray tracing asks lamps that have an area: `jittered`, `random`, or `fixed:N`.
         ambient: ambient light of all techniques but `path`, as a fraction of what the lamps would make of a white
             diffuser in the middle of the scene.
@@ -113,6 +115,8 @@ class Settings:
     error: float | None = None
     sampler: str = "sobol-owen"
     threshold: float = 0.002
+    caustics: bool = False
+    cones: bool = False
     light_centres: str = "jittered"
     ambient: float = 0.15
     interpolation: str = "object"
@@ -149,6 +153,8 @@ class Settings:
                 "sampler": self.sampler,
                 "strata": min(self.samples or UNKNOWN_SAMPLES, 65536),
                 "threshold": self.threshold,
+                "caustics": self.caustics,
+                "cones": self.cones,
                 "light_centres": {"fixed": int(count)} if count else centres,
                 "ambient": self.ambient,
                 "interpolation": self.interpolation,
@@ -173,12 +179,18 @@ class Settings:
             "sampler": self.sampler,
             "replicates": self.replicates,
             **({} if self.error is None else {"error": self.error}),
+            **({"caustics": True} if self.caustics else {}),
             **(self._scanline() if self.technique in SCANLINE else {}),
             **(self._ray_trees() if self.technique in RAY_TREES else {}),
         }
 
     def _ray_trees(self) -> dict[str, Any]:
-        return {"ambient": self.ambient, "threshold": self.threshold, "light_centres": self.light_centres}
+        return {
+            "ambient": self.ambient,
+            "threshold": self.threshold,
+            "light_centres": self.light_centres,
+            **({"cones": True} if self.cones else {}),
+        }
 
     def _scanline(self) -> dict[str, Any]:
         return {
@@ -211,6 +223,13 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
     if limit and given.get("samples") is None:
         chosen["samples"] = None
     chosen |= {name: value for name, value in given.items() if value is not None}
+    for name, technique in (("caustics", "path"), ("cones", "raytrace")):
+        # What a scene wants of its own technique is nothing to another.
+        if given.get(name) is None and chosen.get("technique", Settings.technique) != technique:
+            chosen.pop(name, None)
+    if chosen.get("cones") and given.get("samples") is None:
+        # They are all the same.
+        chosen["samples"] = 1
     if "filter" in chosen:
         chosen["filter"] = filter_of(chosen["filter"])
     if "size" in chosen:

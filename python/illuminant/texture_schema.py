@@ -12,10 +12,19 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
+from illuminant.pattern_schema import ColourPattern, HeightPattern, SlopePattern, is_pattern
 from illuminant.spectrum_schema import SpectrumTable, SpectrumValue, spectrum_form
 from illuminant.table import Fraction, Number, Table, key
 
-__all__ = ["ColourImage", "ColourValue", "HeightImage", "NormalImage", "SlopeImage", "SlopeValue"]
+__all__ = [
+    "ColourImage",
+    "ColourValue",
+    "HeightImage",
+    "HeightValue",
+    "NormalImage",
+    "SlopeImage",
+    "SlopeValue",
+]
 
 Two = Annotated[list[Number], Field(min_length=2, max_length=2)]
 
@@ -29,6 +38,12 @@ class ImageOnSurface(Table):
     )
     repeat: Two = key("how often it stands along u and along v", "[4.0, 4.0]", [1.0, 1.0])
     offset: Two = key("where its lower left corner lies, in images", "[0.5, 0.0]", [0.0, 0.0])
+    filtering: Literal["pyramid", "summed-area"] = key(
+        "how the mean over a pixel is found: in a pyramid of smaller images along the pixel's ellipse (Williams 1983), "
+        "or over the box around it from a table of sums (Crow 1984)",
+        '"summed-area"',
+        "pyramid",
+    )
 
 
 class ColourImage(ImageOnSurface):
@@ -72,6 +87,8 @@ class NormalImage(ImageOnSurface):
 
 
 def _colour_form(value: Any) -> str | None:
+    if is_pattern(value):
+        return "<pattern>"
     if isinstance(value, ColourImage) or (isinstance(value, dict) and "image" in value):
         return "<image>"
     return spectrum_form(value)
@@ -81,29 +98,53 @@ ColourValue = Annotated[
     Annotated[str, Tag("<name>")]
     | Annotated[float, Tag("<constant>")]
     | Annotated[SpectrumTable, Tag("<table>")]
-    | Annotated[ColourImage, Tag("<image>")],
+    | Annotated[ColourImage, Tag("<image>")]
+    | Annotated[ColourPattern, Tag("<pattern>")],
     Discriminator(
         _colour_form,
         custom_error_type="spectrum_form",
         custom_error_message="must be a spectrum (a name, a number, or a table such as { rgb = [0.6, 0.2, 0.1], "
-        'role = "albedo" }) or an image such as { image = "tiles.png" }',
+        'role = "albedo" }), an image such as { image = "tiles.png" } or a pattern such as { pattern = "marble", '
+        "colours = [0.1, 0.8] }",
     ),
 ]
-"""A spectrum, or an image of colours."""
+"""A spectrum, or an image or a pattern of colours."""
 
 
 def _slope_form(value: Any) -> str | None:
+    if is_pattern(value):
+        return "<pattern>"
     if isinstance(value, (dict, SlopeImage)):
         return "<image>"
     return "<constant>" if isinstance(value, (int, float)) and not isinstance(value, bool) else None
 
 
 SlopeValue = Annotated[
-    Annotated[Fraction, Tag("<constant>")] | Annotated[SlopeImage, Tag("<image>")],
+    Annotated[Fraction, Tag("<constant>")]
+    | Annotated[SlopeImage, Tag("<image>")]
+    | Annotated[SlopePattern, Tag("<pattern>")],
     Discriminator(
         _slope_form,
         custom_error_type="slope_form",
         custom_error_message='must be a number from 0 to 1, or an image such as { image = "scratches.png" }',
     ),
 ]
-"""A roughness, or an image of it."""
+"""A roughness, or an image or a pattern of it."""
+
+
+def _height_form(value: Any) -> str | None:
+    if is_pattern(value):
+        return "<pattern>"
+    return "<image>" if isinstance(value, (dict, HeightImage)) else None
+
+
+HeightValue = Annotated[
+    Annotated[HeightImage, Tag("<image>")] | Annotated[HeightPattern, Tag("<pattern>")],
+    Discriminator(
+        _height_form,
+        custom_error_type="height_form",
+        custom_error_message='must be an image of heights such as { image = "dents.png", height = 0.001 }, or a '
+        'pattern such as { pattern = "noise", height = 0.001 }',
+    ),
+]
+"""An image or a pattern of heights."""

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Sequence
 from dataclasses import replace
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from illuminant import pixels, rgb_system
 from illuminant.curves import Curves
 from illuminant.errors import ImageError
+from illuminant.pattern_schema import ColourPattern, HeightPattern, PatternOnSurface, SlopePattern
 from illuminant.report import Path, Report, found
 from illuminant.spectra import Spectrum
 from illuminant.texture_schema import ColourImage, HeightImage, ImageOnSurface, NormalImage, SlopeImage
@@ -36,9 +38,19 @@ class Textures:
         report: takes the mistakes.
         curves: resolves spectra.
         directory: folder that file names are relative to.
+        up: axis that points up.
+        unit_m: length unit, in m.
     """
 
-    def __init__(self, report: Report, curves: Curves, directory: str | os.PathLike[str] = ".") -> None:
+    def __init__(
+        self,
+        report: Report,
+        curves: Curves,
+        directory: str | os.PathLike[str] = ".",
+        up: str = "y",
+        unit_m: float = 1.0,
+    ) -> None:
+        self.up, self.unit_m = up, unit_m
         self.report = report
         self.curves = curves
         self.directory = FilePath(directory)
@@ -46,9 +58,9 @@ class Textures:
         self.warnings: list[str] = []
 
     def colour(
-        self, image: ColourImage, path: Path, *, finished: bool = False
+        self, image: ColourImage | ColourPattern, path: Path, *, finished: bool = False
     ) -> tuple[Spectrum, dict[str, Any]] | None:
-        """The mean colour of an image and its entry, or None after reporting mistakes.
+        """The mean colour of an image or a pattern and its entry, or None after reporting mistakes.
 
         Args:
             image: the table.
@@ -58,6 +70,8 @@ class Textures:
         import numpy as np
 
         before = len(self.report.problems)
+        if isinstance(image, ColourPattern):
+            return self._between(image, path)
         if image.basis is not None and image.rgb_system is not None:
             self.report.add((*path, "rgb_system"), "goes with colours, not with basis", kind="unknown-key")
         system = self.curves.system(image.rgb_system, (*path, "rgb_system"))
@@ -107,8 +121,45 @@ class Textures:
             "finished": finished,
         }
 
-    def slope(self, image: SlopeImage, path: Path) -> dict[str, Any] | None:
-        """The entry of an image of roughness, or None after reporting mistakes."""
+    def _between(self, table: ColourPattern, path: Path) -> tuple[Spectrum, dict[str, Any]] | None:
+        """The mean of the two colours of a pattern, and its entry."""
+        curves = [
+            self.curves.resolve(value, "reflectance", (*path, "colours", i))
+            for i, value in enumerate(table.colours)
+        ]
+        none = self.curves.resolve(0.0, "reflectance", path)
+        pattern = self._pattern(table, path)
+        first, second = curves
+        if first is None or second is None or none is None or pattern is None:
+            return None
+        mean = replace(0.5 * first + 0.5 * second, name=f"mean of {table.pattern}")
+        return mean, {"map": pattern, "basis": [first, second, none], "finished": False}
+
+    def _pattern(self, table: PatternOnSurface, path: Path) -> dict[str, Any] | None:
+        """The entry of a pattern, or None after reporting mistakes."""
+        up = [float(axis == self.up) for axis in "xyz"]
+        axis = up if table.axis is None else [float(value) for value in table.axis]
+        length = math.hypot(*axis)
+        if not length > 0.0:
+            self.report.add((*path, "axis"), "must have a length", kind="direction")
+            return None
+        on_surface = table.coordinates == "uv"
+        unit = 1.0 if on_surface else self.unit_m
+        return {
+            "kind": table.pattern,
+            "on_surface": on_surface,
+            "scale": float(table.scale) * unit,
+            "origin": [float(value) * unit for value in table.origin],
+            "axis": [value / length for value in axis],
+            "octaves": table.octaves,
+            "amplitude": float(table.amplitude),
+        }
+
+    def slope(self, image: SlopeImage | SlopePattern, path: Path) -> dict[str, Any] | None:
+        """The entry of an image or a pattern of roughness, or None after reporting mistakes."""
+        if isinstance(image, SlopePattern):
+            pattern, slopes = self._pattern(image, path), [float(image.black), float(image.white)]
+            return pattern and {"map": pattern, "channel": 1, "slopes": slopes}
         read = self._read(image.image, path)
         if read is None or not self._fractions(read[0], path):
             return None
@@ -116,8 +167,15 @@ class Textures:
         slopes = [float(image.black), float(image.white)]
         return {"map": self._map(image, name), "channel": "rgb".index(image.channel), "slopes": slopes}
 
-    def relief(self, image: HeightImage | NormalImage, path: Path, unit_m: float) -> dict[str, Any] | None:
-        """The entry of an image of heights or normals, or None after reporting mistakes."""
+    def relief(self, image: HeightImage | NormalImage | HeightPattern, path: Path) -> dict[str, Any] | None:
+        """The entry of an image of heights or normals or a pattern of heights, or None after reporting mistakes."""
+        if isinstance(image, HeightPattern):
+            pattern = self._pattern(image, path)
+            return pattern and {
+                "kind": "heights",
+                "map": pattern,
+                "height": float(image.height) * self.unit_m,
+            }
         read = self._read(image.image, path)
         if read is None:
             return None
@@ -127,7 +185,7 @@ class Textures:
                 "kind": "heights",
                 "map": self._map(image, name),
                 "channel": "rgb".index(image.channel),
-                "height": float(image.height) * unit_m,
+                "height": float(image.height) * self.unit_m,
             }
         if read[0][..., 2].min() <= 0.525:
             message = (
@@ -199,6 +257,7 @@ class Textures:
         return {
             "image": name,
             "wrap": image.wrap,
+            "filtering": image.filtering,
             "repeat": [float(value) for value in image.repeat],
             "offset": [float(value) for value in image.offset],
         }

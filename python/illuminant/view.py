@@ -89,7 +89,7 @@ def holds_anything(scene: Scene) -> bool:
     import numpy as np
 
     description = scene.description
-    if any(light["kind"] == "environment" for light in description["lights"]):
+    if any(light["kind"] in ("environment", "sky") for light in description["lights"]):
         return True
     eye = np.array(description["camera"]["eye"], dtype=np.float64)
     normals = planes(description["camera"])

@@ -24,6 +24,7 @@ NAMES = [
     "finishes",
     "glass-and-copper",
     "metamers",
+    "morning",
     "prism",
     "tiles",
     "two-filters",

@@ -75,6 +75,7 @@ SCENES = [
     "finishes.toml",
     "glass-and-copper.toml",
     "metamers.toml",
+    "morning.toml",
     "prism.toml",
     "tiles.toml",
     "two-filters.toml",

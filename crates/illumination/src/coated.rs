@@ -504,12 +504,23 @@ impl<const N: usize> Coated<N> {
         let a = self.way(at, Some(self.tables(at)), v);
         let [boundary, metal] = self.mirrors(at, &a);
         let weight = boundary + metal;
-        let direction = Vec3::new(-v.x, -v.y, v.z) * flip;
         if weight.is_zero() {
-            Vec::new()
-        } else {
-            vec![DiscreteLobe { direction, weight, transmitted: false }]
+            return Vec::new();
         }
+        let chances = self.chances(at, self.tables(at), &a);
+        let smooth_metal = self.layers.body.metal.as_ref().is_some_and(|m| !m.metal.is_rough());
+        let mirror = chances.mirror + if smooth_metal { chances.metal } else { 0.0 };
+        let direction = Vec3::new(-v.x, -v.y, v.z) * flip;
+        vec![DiscreteLobe { direction, weight, brightness: mirror * chances.brightness, transmitted: false }]
+    }
+
+    /// Of what is drawn in a direction with a density the part that the surface and metal make, not the body, as one number.
+    pub(crate) fn share_of_surface(&self, at: &Incidence<'_, N>, to_light: Vec3, pdf: f32) -> f32 {
+        let tables = self.tables(at);
+        let v = at.to_viewer * 1f32.copysign(at.to_viewer.z);
+        let a = self.way(at, Some(tables), v);
+        let body = self.chances(at, tables, &a).body * to_light.z.abs() * FRAC_1_PI;
+        (1.0 - body / pdf).clamp(0.0, 1.0)
     }
 }
 

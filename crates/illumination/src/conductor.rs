@@ -278,6 +278,9 @@ impl<const N: usize> Conductor<N> {
         }
         let v = at.to_viewer;
         let direction = Vec3::new(-v.x, -v.y, v.z);
-        vec![DiscreteLobe { direction, weight: self.mirror_weight(at, v.z.abs()), transmitted: false }]
+        let weight = self.mirror_weight(at, v.z.abs());
+        // All metals reflect all light at grazing incidence, and rise to that about as Schlick (1994) has it.
+        let brightness = self.brightness + (1.0 - self.brightness) * (1.0 - v.z.abs()).powi(5);
+        vec![DiscreteLobe { direction, weight, brightness, transmitted: false }]
     }
 }

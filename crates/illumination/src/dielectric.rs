@@ -426,15 +426,20 @@ impl<const N: usize> Dielectric<N> {
     }
 
     pub(crate) fn discrete_lobes(&self, at: &Incidence<'_, N>) -> Vec<DiscreteLobe<N>> {
-        if self.seen(at).is_some_and(|seen| seen.coherent.is_none()) {
+        let seen = self.seen(at);
+        if seen.as_ref().is_some_and(|seen| seen.coherent.is_none()) {
             return Vec::new();
         }
+        let kept = seen.map_or([1.0; 2], |seen| seen.kept);
         let flip = 1f32.copysign(at.to_viewer.z);
         let v = (at.to_viewer * flip).to_array();
         let boundary = Boundary::new(at, self.dispersive, at.hero_lane, v[2]);
         let lobe = |reflects: bool| {
             let (direction, weight) = self.lobe(at, &boundary, reflects, v)?;
-            Some(DiscreteLobe { direction: direction * flip, weight, transmitted: !reflects })
+            let (direction, transmitted) = (direction * flip, !reflects);
+            let brightness =
+                if reflects { boundary.choice * kept[0] } else { (1.0 - boundary.choice) * kept[1] };
+            Some(DiscreteLobe { direction, weight, brightness, transmitted })
         };
         [true, false].into_iter().filter_map(lobe).collect()
     }

@@ -211,8 +211,9 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
     fn discrete_lobes(&self, at: &Incidence<'_, N>) -> Vec<DiscreteLobe<N>> {
         match self {
             Self::Diffuse { .. } => Vec::new(),
-            Self::Filter { transmittance, .. } => {
-                vec![DiscreteLobe { direction: -at.to_viewer, weight: *transmittance, transmitted: true }]
+            Self::Filter { transmittance, brightness } => {
+                let (weight, brightness) = (*transmittance, *brightness);
+                vec![DiscreteLobe { direction: -at.to_viewer, weight, brightness, transmitted: true }]
             }
             Self::Conductor(conductor) => conductor.discrete_lobes(at),
             Self::Dielectric(dielectric) => dielectric.discrete_lobes(at),
@@ -270,7 +271,11 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
         let pdf = drawn.pdf?;
         let found = self.components(at, drawn.direction);
         let weight = found.specular * (drawn.direction.z.abs() / pdf);
-        (!weight.is_zero()).then_some(Scattered { weight, ..drawn })
+        let brightness = match self {
+            Self::Coated(coated) => drawn.brightness * coated.share_of_surface(at, drawn.direction, pdf),
+            _ => drawn.brightness,
+        };
+        (!weight.is_zero()).then_some(Scattered { weight, brightness, ..drawn })
     }
 
     fn gloss(&self) -> f32 {

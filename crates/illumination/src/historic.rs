@@ -420,7 +420,8 @@ impl<const N: usize> IlluminationModel<N> for Historic<N> {
         let lobe = |(i, ray): (usize, Option<Asked<Weighed<N>>>)| {
             let ray = ray?;
             let direction = vec3(ray.direction) * flip;
-            Some(DiscreteLobe { direction, weight: ray.weight.lanes, transmitted: i == 1 })
+            let Weighed { lanes: weight, brightness } = ray.weight;
+            Some(DiscreteLobe { direction, weight, brightness: brightness as f32, transmitted: i == 1 })
         };
         asked.into_iter().enumerate().filter_map(lobe).collect()
     }

@@ -75,6 +75,8 @@ pub struct DiscreteLobe<const N: usize> {
     pub direction: Vec3,
     /// What the radiance from there is multiplied by.
     pub weight: Lanes<N>,
+    /// The same for the whole spectrum as one number, without the n² of radiance: what decides whether it is followed.
+    pub brightness: f32,
     /// Whether it lies on the other side.
     pub transmitted: bool,
 }

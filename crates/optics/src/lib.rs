@@ -17,6 +17,7 @@ pub mod fresnel;
 pub mod goniometry;
 mod grazing_warp;
 pub mod hemisphere;
+pub mod hosek_wilkie;
 pub mod masking;
 pub mod multiple_scattering;
 pub mod photometric_web;

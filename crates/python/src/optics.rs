@@ -2,6 +2,7 @@
 
 use illuminant_optics::distribution::{Distribution, ggx_alpha};
 use illuminant_optics::facets::{Facets, Shape};
+use illuminant_optics::hosek_wilkie::{self, HosekWilkie};
 use illuminant_optics::{
     dispersion, fresnel, masking, roughness, saunderson, solid_angle, vectors, wave_optics,
 };
@@ -55,6 +56,13 @@ fn function(name: &str) -> Option<(usize, Function)> {
         "index_of_reflectance" => (1, |x| fresnel::index_of_reflectance(x[0])),
         "extinction_of_reflectance" => (1, |x| fresnel::extinction_of_reflectance(x[0])),
         "pseudo_material" => (2, |x| fresnel::pseudo_material(x[0], x[1])),
+        "sky" => (6, |x| {
+            HosekWilkie::new(x[0], x[1], x[2]).map_or(f64::NAN, |sky| sky.radiance(x[3].cos(), x[4], x[5]))
+        }),
+        "sun" => (4, |x| {
+            HosekWilkie::new(x[0], 0.0, 0.0)
+                .map_or(f64::NAN, |sky| hosek_wilkie::at(&sky.sun_radiances(x[1], x[2]), x[3]))
+        }),
         "disc" => (2, |x| solid_angle::disc(x[0], x[1])),
         "disc_error" => (1, |x| solid_angle::disc_error(x[0])),
         "irradiance" => (3, |x| solid_angle::irradiance(x[0], x[1], x[2])),

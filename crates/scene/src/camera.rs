@@ -94,6 +94,17 @@ impl Lens {
     }
 }
 
+/// A point of the world as a camera sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// The point of the lens.
+    pub origin: Vec3,
+    /// Where in the image, pixels from the upper left.
+    pub pixel: [f32; 2],
+    /// How many pixels a unit of solid angle takes there, 1/sr.
+    pub pixels: f32,
+}
+
 /// What a ray needs, in f32: origin, the direction to the upper left corner, and the steps of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 struct RayBasis {
@@ -220,6 +231,42 @@ impl Camera {
         Ray { origin, direction: (sharp - origin).normalize(), time: ray.time }
     }
 
+    /// Where a point of the world is seen through a point of the lens (two numbers in [0, 1)), at a moment of the motion; `None` behind the
+    /// lens. What [`Self::ray_through_lens`] does, backwards.
+    #[must_use]
+    pub fn see(&self, point: Vec3, time: f32, u_lens: [f32; 2]) -> Option<Seen> {
+        let RayBasis { origin: middle, corner, dx, dy } = match &self.moves {
+            None => self.rays,
+            Some(moves) => self.rays.plus(moves, time),
+        };
+        let across = dx.cross(dy);
+        let (mut origin, mut sharp) = (middle, point);
+        if let Some(lens) = &self.lens {
+            let forward = self.forward.as_vec3();
+            let [right, up] = lens.point(u_lens);
+            origin = middle + self.right.as_vec3() * right + self.up.as_vec3() * up;
+            let depth = (point - origin).dot(forward);
+            sharp = origin + (point - origin) * (lens.focus / depth);
+            if !(depth > 0.0) {
+                return None;
+            }
+        }
+        // corner + x dx + y dy = s · way
+        let way = sharp - middle;
+        let depth = way.dot(across) / corner.dot(across);
+        if !(depth > 0.0) {
+            return None;
+        }
+        let on_plane = way / depth - corner;
+        let area = across.length_squared();
+        let pixel = [on_plane.cross(dy).dot(across) / area, dx.cross(on_plane).dot(across) / area];
+        // The solid angle of a pixel: its area on the plane at distance 1, its cosine, over the square of its distance.
+        let direction = (point - origin).normalize();
+        let cos = direction.dot(across).abs() / area.sqrt();
+        let distance = corner.dot(across).abs() / area.sqrt() / cos;
+        Some(Seen { origin, pixel, pixels: distance * distance / (area.sqrt() * cos) })
+    }
+
     /// The angle across a pixel in the middle of the image, radians.
     #[must_use]
     pub fn pixel_angle(&self) -> f32 {
@@ -342,6 +389,30 @@ mod tests {
                 (2.0 + (2.0 * std::f64::consts::PI / f64::from(blades)).cos()) / 6.0
             };
             assert!((squares / 3600.0 / (0.04 * r2) - 1.0).abs() < 2e-3, "{blades}");
+        }
+    }
+
+    #[test]
+    fn what_a_camera_sees_is_where_its_rays_go() {
+        let mut camera = camera(50.0).moving_to(&camera(40.0));
+        for lens in [None, Some(Lens { radius: 0.2, focus: 4.0, blades: 0, turn: 0.0 })] {
+            camera.lens = lens;
+            for (x, y, u_time, t) in [(0.5, 0.5, 0.0, 3.0), (160.0, 100.0, 0.4, 9.0), (319.0, 20.0, 1.0, 0.7)]
+            {
+                let u_lens = [0.3, 0.8];
+                let along = |x: f32, y: f32| camera.ray_through_lens(x, y, u_time, u_lens);
+                let ray = along(x, y);
+                let seen = camera.see(ray.origin + ray.direction * t, ray.time, u_lens).unwrap();
+                assert!((seen.origin - ray.origin).length() < 1e-6);
+                assert!(
+                    (seen.pixel[0] - x).abs() < 2e-3 && (seen.pixel[1] - y).abs() < 2e-3,
+                    "{seen:?} {x} {y}"
+                );
+                let (a, b) = (along(x + 1.0, y).direction, along(x, y + 1.0).direction);
+                let angle = (a - ray.direction).cross(b - ray.direction).length();
+                assert!((seen.pixels * angle - 1.0).abs() < 1e-2, "{} {angle}", seen.pixels);
+                assert!(camera.see(ray.origin - ray.direction * t, ray.time, u_lens).is_none());
+            }
         }
     }
 

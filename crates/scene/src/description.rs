@@ -1,7 +1,8 @@
 //! A resolved scene as plain data: what is written, sent, hashed, and made into a [`crate::Scene`].
 
+use crate::pattern::Pattern;
 use crate::photometry::Quantity;
-use crate::texture::Wrap;
+use crate::texture::{Filtering, Wrap};
 use illuminant_spectrum::{Outside, SpectralRange};
 use serde::{Deserialize, Serialize};
 
@@ -222,15 +223,28 @@ pub struct SkinData {
     pub relief: Option<ReliefTextureData>,
 }
 
+/// What a texture's values come from.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum MapData {
+    /// An image on the surface.
+    Image(ImageMapData),
+    /// A function; its value x is the channels 1 − x, x and 0.
+    Pattern(Pattern),
+}
+
 /// An image and how it lies on a surface.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct MapData {
+pub struct ImageMapData {
     /// Key of the image.
     pub image: String,
     /// What lies beyond its border.
     #[serde(default)]
     pub wrap: Wrap,
+    /// How it is filtered.
+    #[serde(default)]
+    pub filtering: Filtering,
     /// How often it stands along u and v.
     #[serde(default = "once")]
     pub repeat: [f32; 2],
@@ -286,7 +300,7 @@ pub enum ReliefTextureData {
     /// Normals, each component n stored as (n + 1)/2: along u, along v, away from the surface.
     Normals {
         /// The image.
-        map: MapData,
+        map: ImageMapData,
         /// A factor on the slopes.
         strength: f32,
     },
@@ -440,6 +454,24 @@ pub enum LightData {
         spectrum: usize,
         /// How bright.
         quantity: Quantity,
+    },
+    /// The clear sky, and the sun in it.
+    Sky {
+        /// The name that messages use.
+        name: String,
+        /// Whether the disc of the sun is in it, as another lamp.
+        sun: bool,
+        /// How hazy the air is, 1 to 10.
+        turbidity: f64,
+        /// What the ground reflects, 0 to 1.
+        ground_albedo: f64,
+        /// How high the sun stands, degrees.
+        elevation_deg: f64,
+        /// Where it stands, degrees from the middle of an environment image to the right.
+        azimuth_deg: f64,
+        /// The axis that points to the zenith.
+        #[serde(default)]
+        up: UpAxis,
     },
     /// Light from all around.
     Environment {

@@ -294,7 +294,7 @@ fn sigmoid_table(system: &RgbSystem, range: SpectralRange) -> Arc<SigmoidTable> 
 }
 
 /// The cell of running sums (from 0 to 1) that holds `u`, and how far into it; `None` when all are zero.
-fn pick(sums: &[f32], u: f32) -> Option<(usize, f32)> {
+pub(crate) fn pick(sums: &[f32], u: f32) -> Option<(usize, f32)> {
     let total = *sums.last()?;
     if total <= 0.0 {
         return None;

@@ -431,6 +431,34 @@ impl Geometry {
         local.map(|v| to_world.transform_vector3(v))
     }
 
+    /// The hit that a ray has at a point of a primitive, as [`Self::closest_hit`] would give it.
+    #[must_use]
+    pub fn hit_at(&self, ray: &Ray, object: u32, primitive: u32, point: Vec3) -> Hit {
+        let distance = ray.origin.distance(point);
+        let Shape::Mesh(mesh) = self.shape(object as usize) else {
+            return Hit { distance, object, primitive, barycentric: [0.0; 2], normal: Vec3::Z };
+        };
+        let local = match &self.objects[object as usize] {
+            Placed::Baked(_) => point,
+            Placed::Instance { motion, .. } => motion.at(ray.time).inverse().transform_point3(point),
+        };
+        let [a, b, c] = mesh.indices[primitive as usize].map(|i| mesh.positions[i as usize]);
+        let normal = (b - a).cross(c - a);
+        let part = |p: Vec3, q: Vec3| (p - local).cross(q - local).dot(normal) / normal.length_squared();
+        Hit { distance, object, primitive, barycentric: [part(c, a), part(a, b)], normal }
+    }
+
+    /// Where a point of an object, met at a time, was as the object's motion began.
+    #[must_use]
+    pub fn at_rest(&self, object: usize, time: f32, point: Vec3) -> Vec3 {
+        match &self.objects[object] {
+            Placed::Instance { motion, .. } if !motion.is_static() => {
+                motion.at(0.0).transform_point3(motion.at(time).inverse().transform_point3(point))
+            }
+            _ => point,
+        }
+    }
+
     /// The corners of a triangle of an object in the world, at a time; `None` for spheres.
     #[must_use]
     pub fn triangle(&self, object: usize, primitive: usize, time: f32) -> Option<[Vec3; 3]> {

@@ -3,9 +3,10 @@
 use crate::environment::EnvironmentImage;
 use crate::geometry::Geometry;
 use crate::light_tree::Extent;
+use crate::sky::{Sky, Sun};
 use crate::surface::{Hit, SurfacePoint};
 use crate::surface_lamp::SurfaceLamp;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use illuminant_optics::goniometry::Distribution;
 use illuminant_optics::photometric_web::PhotometricWeb;
 use illuminant_spectrum::Curve;
@@ -71,6 +72,24 @@ pub enum LampForm {
     Uniform,
     /// An image of the surroundings.
     Image(Box<EnvironmentImage>),
+    /// The clear sky, without the sun.
+    Sky(Box<Sky>),
+    /// The disc of the sun.
+    Sun(Box<Sun>),
+}
+
+impl LampForm {
+    /// Whether it is seen where nothing else is.
+    #[must_use]
+    pub fn surrounds(&self) -> bool {
+        self.is_background() || matches!(self, Self::Sun(_))
+    }
+
+    /// Whether it surrounds the scene without a place of its own, so that techniques that ask every lamp take it for ambient light.
+    #[must_use]
+    pub fn is_background(&self) -> bool {
+        matches!(self, Self::Uniform | Self::Image(_) | Self::Sky(_))
+    }
 }
 
 /// The smooth edge of a spot: 1 inside, 0 outside, a cubic between.
@@ -96,48 +115,67 @@ pub struct LampSample {
     pub pdf: Option<f32>,
     /// What the lamp's spectrum is multiplied by: falloff, 1/r².
     pub scale: f32,
-    /// Where in an environment image.
-    pub uv: Option<Vec2>,
+    /// Whether the radiance depends on the direction.
+    pub varies: bool,
 }
 
 impl Lamp {
+    /// The intensity in a direction away from a lamp that is a point, relative to that of its spectrum.
+    #[inline(always)]
+    pub(crate) fn falloff(&self, direction: Vec3) -> f32 {
+        match &self.form {
+            LampForm::Luminaire { axis, distribution, .. } => {
+                distribution.value(f64::from(direction.dot(*axis))) as f32
+            }
+            LampForm::Photometric { frame, web, .. } => web_value(web, frame, direction),
+            LampForm::Spot { axis, cos_full, cos_end, .. } => {
+                spot_falloff(direction.dot(*axis), *cos_full, *cos_end)
+            }
+            _ => 1.0,
+        }
+    }
+
     /// A direction from a point to the lamp, from two numbers in [0, 1); `None` when it sends no light there.
     #[inline]
     #[must_use]
     pub fn sample(&self, geometry: &Geometry, from: Vec3, time: f32, u: [f32; 2]) -> Option<LampSample> {
-        let point = |position: Vec3, falloff: f32| {
+        let point = |position: Vec3| {
             let d = position - from;
             let r2 = d.length_squared();
+            let falloff = self.falloff((from - position).normalize_or_zero());
             (r2 > 0.0 && falloff > 0.0).then(|| LampSample {
                 direction: d / r2.sqrt(),
                 target: Some(position),
                 pdf: None,
                 scale: falloff / r2,
-                uv: None,
+                varies: false,
             })
+        };
+        let afar = |direction: Vec3, pdf: f32| {
+            Some(LampSample { direction, target: None, pdf: Some(pdf), scale: 1.0, varies: true })
         };
         match &self.form {
             LampForm::Surface(surface) => surface.sample(geometry, from, time, u),
-            LampForm::Point { position } => point(*position, 1.0),
-            LampForm::Luminaire { position, axis, distribution } => {
-                let cos = (from - *position).normalize_or_zero().dot(*axis);
-                point(*position, distribution.value(f64::from(cos)) as f32)
-            }
-            LampForm::Photometric { position, frame, web } => {
-                point(*position, web_value(web, frame, (from - *position).normalize_or_zero()))
-            }
-            LampForm::Spot { position, axis, cos_full, cos_end } => {
-                let cos = (from - *position).normalize_or_zero().dot(*axis);
-                point(*position, spot_falloff(cos, *cos_full, *cos_end))
-            }
-            LampForm::Parallel { direction } => {
-                Some(LampSample { direction: -*direction, target: None, pdf: None, scale: 1.0, uv: None })
-            }
+            LampForm::Point { position }
+            | LampForm::Luminaire { position, .. }
+            | LampForm::Photometric { position, .. }
+            | LampForm::Spot { position, .. } => point(*position),
+            LampForm::Parallel { direction } => Some(LampSample {
+                direction: -*direction,
+                target: None,
+                pdf: None,
+                scale: 1.0,
+                varies: false,
+            }),
             LampForm::Uniform => None, // met by chance alone: no direction is better than another
             LampForm::Image(image) => {
                 let (uv, pdf) = image.sample(u)?;
-                let direction = image.direction(uv);
-                Some(LampSample { direction, target: None, pdf: Some(pdf), scale: 1.0, uv: Some(uv) })
+                afar(image.direction(uv), pdf)
+            }
+            LampForm::Sky(sky) => sky.sample(u).and_then(|(direction, pdf)| afar(direction, pdf)),
+            LampForm::Sun(sun) => {
+                let (direction, pdf) = sun.sample(u);
+                afar(direction, pdf)
             }
         }
     }
@@ -157,6 +195,19 @@ impl Lamp {
         match &self.form {
             LampForm::Surface(surface) => surface.pdf(geometry, from, time, hit, target),
             _ => 0.0,
+        }
+    }
+
+    /// The density, 1/sr, with which [`Self::sample`] draws a direction in which a lamp that surrounds the scene is seen; `None` for one
+    /// that is not asked.
+    #[inline]
+    #[must_use]
+    pub fn pdf_of_direction(&self, direction: Vec3) -> Option<f32> {
+        match &self.form {
+            LampForm::Image(image) => Some(image.pdf(image.uv(direction))),
+            LampForm::Sky(sky) => Some(sky.pdf(direction)),
+            LampForm::Sun(sun) => Some(if sun.covers(direction) { sun.solid_angle().recip() } else { 0.0 }),
+            _ => None,
         }
     }
 
@@ -188,24 +239,18 @@ impl Lamp {
         luminous
             * match &self.form {
                 LampForm::Surface(surface) => surface.expected_solid_angle(from),
-                LampForm::Point { position } => from.distance_squared(*position).max(1e-12).recip(),
-                LampForm::Luminaire { position, axis, distribution } => {
+                LampForm::Point { position }
+                | LampForm::Luminaire { position, .. }
+                | LampForm::Photometric { position, .. }
+                | LampForm::Spot { position, .. } => {
                     let d = from - *position;
-                    let cos = d.normalize_or_zero().dot(*axis);
-                    distribution.value(f64::from(cos)) as f32 / d.length_squared().max(1e-12)
-                }
-                LampForm::Photometric { position, frame, web } => {
-                    let d = from - *position;
-                    web_value(web, frame, d.normalize_or_zero()) / d.length_squared().max(1e-12)
-                }
-                LampForm::Spot { position, axis, cos_full, cos_end } => {
-                    let d = from - *position;
-                    spot_falloff(d.normalize_or_zero().dot(*axis), *cos_full, *cos_end)
-                        / d.length_squared().max(1e-12)
+                    self.falloff(d.normalize_or_zero()) / d.length_squared().max(1e-12)
                 }
                 LampForm::Parallel { .. } => 1.0,
                 LampForm::Uniform => 0.0,
                 LampForm::Image(image) => image.integral() as f32,
+                LampForm::Sky(sky) => sky.integral() as f32,
+                LampForm::Sun(sun) => sun.solid_angle(),
             }
     }
 
@@ -234,7 +279,11 @@ impl Lamp {
             LampForm::Spot { position, axis, cos_end, .. } => {
                 Some(at(*position, *axis, 0.0, cos_end.clamp(-1.0, 1.0).acos(), 1.0))
             }
-            LampForm::Parallel { .. } | LampForm::Uniform | LampForm::Image(_) => None,
+            LampForm::Parallel { .. }
+            | LampForm::Uniform
+            | LampForm::Image(_)
+            | LampForm::Sky(_)
+            | LampForm::Sun(_) => None,
         }
     }
 }

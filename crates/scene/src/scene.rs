@@ -11,6 +11,7 @@ use crate::lamp_chooser::{LampChooser, chooser};
 use crate::medium::{Density, Medium, Phase};
 use crate::photometry::{Source, absolute_spectrum};
 use crate::skin::{Skin, Textures};
+use crate::sky::{Sky, Sun, SunPosition};
 use crate::surface_lamp::SurfaceLamp;
 use crate::{Camera, Geometry, Lens};
 use glam::{DVec3, Mat3, Vec3};
@@ -18,6 +19,7 @@ use illuminant_color::RgbSystem;
 use illuminant_illumination::{Atmosphere, Film, Finish, Flakes, Material, Surface};
 use illuminant_optics::facets::Shape;
 use illuminant_optics::goniometry::Distribution;
+use illuminant_optics::hosek_wilkie::HosekWilkie;
 use illuminant_optics::photometric_web::PhotometricWeb;
 use illuminant_spectrum::{Curve, Observer, SpectralRange};
 use std::collections::HashMap;
@@ -133,6 +135,7 @@ impl Scene {
         }
         for light in &description.lights {
             lamps.push(self::lamp(light, &curves, images, range)?);
+            lamps.extend(sun(light, range)?);
         }
         let mut camera = camera(description)?;
         if !camera.is_moving() && (0..objects.len()).all(|object| geometry.is_static(object)) {
@@ -143,8 +146,7 @@ impl Scene {
         let medium = medium(description, &curves, images, range)?;
         let observer = Observer::cie_1931_2deg();
         let luminous: Vec<f64> = lamps.iter().map(|lamp| observer.luminance(&lamp.spectrum, range)).collect();
-        let around = |l: &Lamp| matches!(l.form, LampForm::Uniform | LampForm::Image(_));
-        let surroundings = (0..lamps.len()).filter(|&i| around(&lamps[i])).collect();
+        let surroundings = (0..lamps.len()).filter(|&i| lamps[i].form.surrounds()).collect();
         let chooser = chooser(&geometry, &lamps, &luminous);
         Ok(Self {
             geometry,
@@ -446,6 +448,13 @@ fn lamp(
             let direction = unit(&format!("lights.{name}"), "direction", *direction)?;
             finish(name, *spectrum, *quantity, Source::Parallel, LampForm::Parallel { direction })
         }
+        LightData::Sky { name, .. } => {
+            let Some((model, position)) = clear_sky(data)? else {
+                return Err(error(format!("lights.{name}"), "is no sky"));
+            };
+            let (sky, spectrum) = Sky::new(model, &position, range);
+            Ok(Lamp { name: name.clone(), spectrum, form: LampForm::Sky(Box::new(sky)) })
+        }
         LightData::Environment { name, spectrum, quantity, image: None, .. } => {
             let place = format!("lights.{name}");
             let spectrum =
@@ -483,15 +492,45 @@ fn lamp(
             };
             let white = absolute_spectrum(&relative, *quantity, Source::Surround, range).map_err(problem)?;
             let turn = Mat3::from_rotation_y(-(rotation_deg.to_radians() as f32));
-            let to_y_up = match up {
-                UpAxis::Y => Mat3::IDENTITY,
-                UpAxis::Z => Mat3::from_rotation_x(-std::f32::consts::FRAC_PI_2),
-            };
-            let image =
-                EnvironmentImage::new((*width, *height), rgb, &system, white.clone(), turn * to_y_up, range)
-                    .map_err(|text| error(&place, text))?;
+            let image = EnvironmentImage::new(
+                (*width, *height),
+                rgb,
+                &system,
+                white.clone(),
+                turn * to_y_up(*up),
+                range,
+            )
+            .map_err(|text| error(&place, text))?;
             Ok(Lamp { name: name.clone(), spectrum: white, form: LampForm::Image(Box::new(image)) })
         }
+    }
+}
+
+/// The model of a sky, and where its sun stands; `None` for other lights.
+fn clear_sky(light: &LightData) -> Result<Option<(HosekWilkie, SunPosition)>, SceneError> {
+    let LightData::Sky { name, turbidity, ground_albedo, elevation_deg, azimuth_deg, up, .. } = light else {
+        return Ok(None);
+    };
+    let (elevation, azimuth) = (elevation_deg.to_radians(), azimuth_deg.to_radians());
+    let model = HosekWilkie::new(*turbidity, *ground_albedo, elevation);
+    let model = model.map_err(|problem| error(format!("lights.{name}"), problem))?;
+    Ok(Some((model, SunPosition { elevation, azimuth, to_y_up: to_y_up(*up) })))
+}
+
+/// The sun of a sky that shows it, as a lamp of its own.
+fn sun(light: &LightData, range: SpectralRange) -> Result<Option<Lamp>, SceneError> {
+    let LightData::Sky { name, sun: true, .. } = light else { return Ok(None) };
+    Ok(clear_sky(light)?.map(|(model, position)| {
+        let (sun, spectrum) = Sun::new(model, &position, range);
+        Lamp { name: format!("{name} sun"), spectrum, form: LampForm::Sun(Box::new(sun)) }
+    }))
+}
+
+/// From the world to a y-up frame.
+fn to_y_up(up: UpAxis) -> Mat3 {
+    match up {
+        UpAxis::Y => Mat3::IDENTITY,
+        UpAxis::Z => Mat3::from_rotation_x(-std::f32::consts::FRAC_PI_2),
     }
 }
 

@@ -1,7 +1,8 @@
 //! What images say of a material: its colour, how rough it is, and how its normal is perturbed.
 
 use crate::ImageData;
-use crate::description::{MapData, ReliefTextureData, SkinData};
+use crate::description::{ImageMapData, MapData, ReliefTextureData, SkinData};
+use crate::pattern::Pattern;
 use crate::texture::{Footprint, Texture, slopes_of_heights};
 use glam::{Vec2, Vec3};
 use illuminant_illumination::{REPRESENTATIVE_NM, Surface};
@@ -18,13 +19,17 @@ pub struct TexturePoint {
     pub along: [Vec3; 2],
     /// The part of the texture that is seen.
     pub footprint: Footprint,
+    /// Where it lies in space: of what moves, where it was as its motion began.
+    pub solid: Vec3,
+    /// The half axes of what is seen there, in the world.
+    pub axes: [Vec3; 2],
 }
 
 impl TexturePoint {
     /// The point with what a cone of light sees of the texture: `width` is its diameter there, `direction` its axis, and
     /// `normal` the unit normal of the surface.
     #[must_use]
-    pub fn new(uv: Vec2, along: [Vec3; 2], width: f32, direction: Vec3, normal: Vec3) -> Self {
+    pub fn new(uv: Vec2, along: [Vec3; 2], solid: Vec3, width: f32, direction: Vec3, normal: Vec3) -> Self {
         let cos = direction.dot(normal);
         // The ellipse in which the cone cuts the plane: as wide as the cone, and longer the flatter it comes.
         let across =
@@ -41,7 +46,49 @@ impl TexturePoint {
         };
         let sound = determinant > 0.0 && determinant.is_finite();
         let footprint = if sound { Footprint { axes: axes.map(in_texture) } } else { Footprint::default() };
-        Self { uv, along, footprint }
+        Self { uv, along, footprint, solid, axes }
+    }
+}
+
+/// Where a texture's values come from.
+#[derive(Clone, Debug)]
+pub enum Map {
+    /// An image on the surface.
+    Image(Arc<Texture>),
+    /// A function of space or of texture coordinates.
+    Pattern(Pattern),
+}
+
+impl Map {
+    /// The mean over what is seen about a point: three channels, of a pattern of value x these are 1 − x, x and 0.
+    #[must_use]
+    pub fn at(&self, point: &TexturePoint) -> [f32; 3] {
+        match self {
+            Self::Image(texture) => texture.lookup(point.uv, &point.footprint),
+            Self::Pattern(pattern) => {
+                let (place, axes) = place(pattern, point);
+                let x = pattern.value(place, &axes);
+                [1.0 - x, x, 0.0]
+            }
+        }
+    }
+
+    /// The smallest and the largest value of a channel.
+    #[must_use]
+    pub fn extent(&self, channel: usize) -> [f32; 2] {
+        match self {
+            Self::Image(texture) => texture.extent(channel),
+            Self::Pattern(_) => [0.0, 1.0],
+        }
+    }
+}
+
+/// A point and what is seen there, as a pattern measures.
+fn place(pattern: &Pattern, point: &TexturePoint) -> (Vec3, [Vec3; 2]) {
+    if pattern.on_surface {
+        (point.uv.extend(0.0), point.footprint.axes.map(|axis| axis.extend(0.0)))
+    } else {
+        (point.solid, point.axes)
     }
 }
 
@@ -51,7 +98,7 @@ impl TexturePoint {
 #[derive(Clone, Debug)]
 pub struct ColourTexture {
     /// The image.
-    pub texture: Arc<Texture>,
+    pub texture: Map,
     /// What one unit of each channel is: a fraction of light at each wavelength.
     pub basis: [Curve; 3],
     /// Where it shows finished paint: the index of the vehicle whose surface is seen with the pigment (Saunderson 1942).
@@ -62,7 +109,7 @@ pub struct ColourTexture {
 #[derive(Clone, Debug)]
 pub struct SlopeTexture {
     /// The image.
-    pub texture: Arc<Texture>,
+    pub texture: Map,
     /// Which channel.
     pub channel: usize,
     /// The slopes of 0 and 1.
@@ -73,7 +120,7 @@ impl SlopeTexture {
     /// The slope at a point.
     #[must_use]
     pub fn at(&self, point: &TexturePoint) -> f64 {
-        let value = f64::from(self.texture.lookup(point.uv, &point.footprint)[self.channel]).clamp(0.0, 1.0);
+        let value = f64::from(self.texture.at(point)[self.channel]).clamp(0.0, 1.0);
         self.slopes[0] + value * (self.slopes[1] - self.slopes[0])
     }
 
@@ -94,6 +141,8 @@ pub enum ReliefTexture {
     Heights(Arc<Texture>, [f32; 2]),
     /// The slopes of the relief along the surface, in the direction in which u grows and across.
     Normals(Arc<Texture>, f32),
+    /// The heights of a pattern: that of the value 1, in metres.
+    Pattern(Pattern, f32),
 }
 
 impl ReliefTexture {
@@ -105,7 +154,8 @@ impl ReliefTexture {
     pub fn perturbed(&self, point: &TexturePoint, normal: Vec3) -> Vec3 {
         let [pu, pv] = point.along.map(|p| p - normal * p.dot(normal));
         let volume = pu.cross(pv).dot(normal);
-        if !(volume.abs() > 1e-12 * (pu.length_squared() + pv.length_squared())) {
+        let solid = matches!(self, Self::Pattern(pattern, _) if !pattern.on_surface);
+        if !(solid || volume.abs() > 1e-12 * (pu.length_squared() + pv.length_squared())) {
             return normal;
         }
         let moved = match self {
@@ -119,6 +169,16 @@ impl ReliefTexture {
                 let t = pu.normalize();
                 let b = normal.cross(t) * volume.signum();
                 normal - (t * x + b * y) * *strength
+            }
+            Self::Pattern(pattern, height) => {
+                let (place, axes) = place(pattern, point);
+                let slope = pattern.gradient(place, &axes) * *height;
+                if pattern.on_surface {
+                    let (gradient_u, gradient_v) = (pv.cross(normal) / volume, normal.cross(pu) / volume);
+                    normal - gradient_u * slope.x - gradient_v * slope.y
+                } else {
+                    normal - (slope - normal * slope.dot(normal))
+                }
             }
         };
         moved.normalize_or(normal)
@@ -142,6 +202,21 @@ impl Skin {
     pub fn is_bare(&self) -> bool {
         self.colour.is_none() && self.slope.is_none() && self.relief.is_none()
     }
+}
+
+/// A pattern, if its numbers can be.
+fn sound(pattern: &Pattern) -> Result<Pattern, String> {
+    let axis = Vec3::from(pattern.axis);
+    if !(pattern.scale > 0.0 && pattern.scale.is_finite() && pattern.amplitude.is_finite()) {
+        return Err("a pattern has a scale above 0 and a finite amplitude".into());
+    }
+    if !(1..=16).contains(&pattern.octaves) {
+        return Err("a pattern has 1 to 16 octaves".into());
+    }
+    if !((axis.length() - 1.0).abs() < 1e-3 && Vec3::from(pattern.origin).is_finite()) {
+        return Err("a pattern has an axis of length 1 and a finite origin".into());
+    }
+    Ok(*pattern)
 }
 
 /// The images of a scene as textures, each pyramid built once.
@@ -177,7 +252,7 @@ impl Textures {
                 Surface::Coated { n, .. } if colour.finished => Some(n.at(REPRESENTATIVE_NM)),
                 _ => None,
             };
-            let texture = self.texture(&colour.map, "", images, |_, image| Ok(image.to_vec()))?;
+            let texture = self.map(&colour.map, images)?;
             let basis = basis.try_into().map_err(|_| "a colour has three curves")?;
             skin.colour = Some(ColourTexture { texture, basis, finished });
         }
@@ -188,12 +263,15 @@ impl Textures {
             if slope.channel > 2 || !slope.slopes.iter().all(|m| (0.0..=1.0).contains(m)) {
                 return Err("an image of slopes has a channel 0, 1 or 2 and slopes between 0 and 1".into());
             }
-            let texture = self.texture(&slope.map, "", images, |_, image| Ok(image.to_vec()))?;
+            let texture = self.map(&slope.map, images)?;
             skin.slope = Some(SlopeTexture { texture, channel: slope.channel, slopes: slope.slopes });
         }
         skin.relief = match &data.relief {
             None => None,
-            Some(ReliefTextureData::Heights { map, channel, height }) => {
+            Some(ReliefTextureData::Heights { map: MapData::Pattern(pattern), height, .. }) => {
+                Some(ReliefTexture::Pattern(sound(pattern)?, *height))
+            }
+            Some(ReliefTextureData::Heights { map: MapData::Image(map), channel, height }) => {
                 if *channel > 2 || !height.is_finite() {
                     return Err("an image of heights has a channel 0, 1 or 2 and a finite height".into());
                 }
@@ -227,15 +305,24 @@ impl Textures {
         Ok(skin)
     }
 
+    /// The values of an image or a pattern.
+    fn map(&mut self, map: &MapData, images: &HashMap<String, ImageData>) -> Result<Map, String> {
+        Ok(match map {
+            MapData::Image(map) => Map::Image(self.texture(map, "", images, |_, image| Ok(image.to_vec()))?),
+            MapData::Pattern(pattern) => Map::Pattern(sound(pattern)?),
+        })
+    }
+
     /// The texture that `make` makes of an image; `use_of` tells apart what is made of the same image.
     fn texture(
         &mut self,
-        map: &MapData,
+        map: &ImageMapData,
         use_of: &str,
         images: &HashMap<String, ImageData>,
         make: impl Fn((usize, usize), &[[f32; 3]]) -> Result<Vec<[f32; 3]>, String>,
     ) -> Result<Arc<Texture>, String> {
-        let key = format!("{} {use_of} {:?} {:?} {:?}", map.image, map.wrap, map.repeat, map.offset);
+        let (wrap, filtering) = (map.wrap, map.filtering);
+        let key = format!("{} {use_of} {wrap:?} {filtering:?} {:?} {:?}", map.image, map.repeat, map.offset);
         if let Some(found) = self.known.get(&key) {
             return Ok(Arc::clone(found));
         }
@@ -249,7 +336,8 @@ impl Textures {
             map.wrap,
             Vec2::from(map.repeat),
             Vec2::from(map.offset),
-        )?;
+        )?
+        .filtered(filtering);
         Ok(Arc::clone(self.known.entry(key).or_insert(Arc::new(texture))))
     }
 }
@@ -260,7 +348,8 @@ mod tests {
     use crate::texture::Wrap;
 
     fn point(along: [Vec3; 2]) -> TexturePoint {
-        TexturePoint { uv: Vec2::splat(0.5), along, footprint: Footprint::default() }
+        let axes = [Vec3::ZERO; 2];
+        TexturePoint { uv: Vec2::splat(0.5), along, footprint: Footprint::default(), solid: Vec3::ZERO, axes }
     }
 
     fn texture(size: (usize, usize), texels: Vec<[f32; 3]>) -> Arc<Texture> {
@@ -298,11 +387,12 @@ mod tests {
     #[test]
     fn a_cone_sees_more_of_a_tilted_surface() {
         let along = [Vec3::X * 2.0, Vec3::Y * 4.0];
-        let point = TexturePoint::new(Vec2::ZERO, along, 0.1, -Vec3::Z, Vec3::Z);
+        let point = TexturePoint::new(Vec2::ZERO, along, Vec3::ZERO, 0.1, -Vec3::Z, Vec3::Z);
         let area = |p: &TexturePoint| p.footprint.axes[0].perp_dot(p.footprint.axes[1]).abs();
         // 0.05² of the half axes over 2 · 4.
         assert!((area(&point) - 0.05 * 0.05 / 8.0).abs() < 1e-8);
-        let tilted = TexturePoint::new(Vec2::ZERO, along, 0.1, Vec3::new(0.0, 0.8, -0.6), Vec3::Z);
+        let tilted =
+            TexturePoint::new(Vec2::ZERO, along, Vec3::ZERO, 0.1, Vec3::new(0.0, 0.8, -0.6), Vec3::Z);
         assert!((area(&tilted) - 0.05 * 0.05 / 0.6 / 8.0).abs() < 1e-8);
     }
 }

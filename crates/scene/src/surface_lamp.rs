@@ -152,6 +152,24 @@ impl SurfaceLamp {
         }
     }
 
+    /// A point of the surface, uniform over its area, and the normal there: where light that begins at the lamp begins.
+    pub(crate) fn point(&self, geometry: &Geometry, time: f32, u: [f32; 2]) -> Option<(Vec3, Vec3)> {
+        match &self.outline {
+            Outline::Rectangle { corner, x, y, size, normal } => {
+                Some((*corner + *x * (u[0] * size[0]) + *y * (u[1] * size[1]), *normal))
+            }
+            Outline::Sphere { center, radius } => {
+                let normal = Vec3::from(illuminant_optics::hemisphere::sphere(u));
+                Some((*center + normal * *radius, normal))
+            }
+            Outline::Triangles { sums, .. } => {
+                let (i, _, u) = pick(sums, u);
+                let [a, b, c] = geometry.triangle(self.object, i, time)?;
+                Some((on_triangle([a, b, c], u), (b - a).cross(c - a).try_normalize()?))
+            }
+        }
+    }
+
     /// About the solid angle under which a point sees the lamp, as if it faced the point; 0 behind a flat one.
     #[inline]
     pub(crate) fn expected_solid_angle(&self, from: Vec3) -> f32 {
@@ -210,10 +228,7 @@ impl SurfaceLamp {
                 (target, normal, pdf)
             }
             Outline::Triangles { sums, areas } => {
-                let i = sums.partition_point(|&s| s <= u[0]).min(sums.len() - 1);
-                let low = if i == 0 { 0.0 } else { sums[i - 1] };
-                let probability = sums[i] - low;
-                let u = [((u[0] - low) / probability).clamp(0.0, 1.0 - f32::EPSILON), u[1]];
+                let (i, probability, u) = pick(sums, u);
                 let [a, b, c] = geometry.triangle(self.object, i, time)?;
                 let normal = (b - a).cross(c - a).normalize_or_zero();
                 match seen_triangle(from, [a, b, c], areas[i]) {
@@ -226,8 +241,7 @@ impl SurfaceLamp {
                         (from + direction * distance, normal, probability / seen.solid_angle())
                     }
                     None => {
-                        let s = u[0].sqrt();
-                        let target = a * (1.0 - s) + b * (s * (1.0 - u[1])) + c * (s * u[1]);
+                        let target = on_triangle([a, b, c], u);
                         (target, normal, probability * by_area(from, target, normal, areas[i])?)
                     }
                 }
@@ -244,7 +258,7 @@ impl SurfaceLamp {
         let short = 1e-5 * (target.abs().max_element() + distance);
         let target = target - normal * short.copysign(cos);
         let scale = self.relative_radiance(cos);
-        Some(LampSample { direction, target: Some(target), pdf: Some(pdf), scale, uv: None })
+        Some(LampSample { direction, target: Some(target), pdf: Some(pdf), scale, varies: false })
     }
 
     /// The density, 1/sr, with which `sample` draws the direction in which a ray from a point has met the lamp.
@@ -276,6 +290,22 @@ impl SurfaceLamp {
             }
         }
     }
+}
+
+/// A triangle chosen by area, its probability, and the numbers made uniform again.
+#[inline(always)]
+fn pick(sums: &[f32], u: [f32; 2]) -> (usize, f32, [f32; 2]) {
+    let i = sums.partition_point(|&s| s <= u[0]).min(sums.len() - 1);
+    let low = if i == 0 { 0.0 } else { sums[i - 1] };
+    let probability = sums[i] - low;
+    (i, probability, [((u[0] - low) / probability).clamp(0.0, 1.0 - f32::EPSILON), u[1]])
+}
+
+/// A point of a triangle, uniform over its area.
+#[inline(always)]
+fn on_triangle([a, b, c]: [Vec3; 3], u: [f32; 2]) -> Vec3 {
+    let s = u[0].sqrt();
+    a * (1.0 - s) + b * (s * (1.0 - u[1])) + c * (s * u[1])
 }
 
 /// A rectangle on the sphere around a point; `None` where it is better sampled by area.

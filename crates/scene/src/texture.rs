@@ -4,6 +4,7 @@
 //! image that is seen, an ellipse in texture coordinates: from a pyramid of ever smaller images (Williams 1983), between two of
 //! which and between whose texels it is linear, at several places along the longer axis (as Feline does, McCormack et al. 1999).
 
+use crate::summed_area::SummedArea;
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +22,17 @@ pub enum Wrap {
     Clamp,
     /// Its mirror image.
     Mirror,
+}
+
+/// How a lookup finds the mean of what it sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Filtering {
+    /// In a pyramid of ever smaller images, at places along the ellipse.
+    #[default]
+    Pyramid,
+    /// Over the box about the ellipse, from a summed-area table (Crow 1984).
+    SummedArea,
 }
 
 /// The part of a texture that one lookup sees: the half axes of an ellipse in texture coordinates.
@@ -43,6 +55,8 @@ struct Level {
 #[derive(Clone, Debug)]
 pub struct Texture {
     levels: Vec<Level>,
+    /// Sums over boxes, where they are wanted instead of the pyramid.
+    sums: Option<SummedArea>,
     wrap: Wrap,
     /// How often the image stands along each axis of the unit square, and where its lower left corner lies.
     repeat: Vec2,
@@ -157,7 +171,16 @@ impl Texture {
         while let Some(last) = levels.last().filter(|l| l.width * l.height > 1) {
             levels.push(last.smaller());
         }
-        Ok(Self { levels, wrap, repeat, offset })
+        Ok(Self { levels, sums: None, wrap, repeat, offset })
+    }
+
+    /// The same texture with another way to find means.
+    #[must_use]
+    pub fn filtered(mut self, filtering: Filtering) -> Self {
+        let Level { width, height, texels } = &self.levels[0];
+        self.sums = (filtering == Filtering::SummedArea)
+            .then(|| SummedArea::new((*width, *height), texels, self.wrap));
+        self
     }
 
     /// The mean of the image over a footprint about a point.
@@ -167,6 +190,13 @@ impl Texture {
         let place = uv * self.repeat - self.offset;
         // In texels of the largest image.
         let axes = footprint.axes.map(|axis| axis * self.repeat * size);
+        if let Some(sums) = &self.sums {
+            let middle = Vec2::new(place.x, 1.0 - place.y) * size;
+            // A texel at least, as between the centres of texels.
+            let half =
+                Vec2::new(axes[0].x.hypot(axes[1].x), axes[0].y.hypot(axes[1].y)).max(Vec2::splat(0.5));
+            return sums.mean(middle - half, middle + half);
+        }
         let lengths = axes.map(|axis| axis.length());
         let longer = usize::from(lengths[1] > lengths[0]);
         let (major, minor) = (lengths[longer], lengths[1 - longer].max(lengths[longer] / MOST_PROBES));
@@ -283,6 +313,18 @@ mod tests {
         assert!((at(Wrap::Clamp, centre(10.0)) - 7.0).abs() < 1e-4);
         assert!((at(Wrap::Mirror, centre(10.0)) - 5.0).abs() < 1e-4);
         assert!((at(Wrap::Mirror, centre(-2.0)) - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn summed_areas_are_the_means_of_boxes() {
+        let (pyramid, sums) =
+            (texture(8, 4, Wrap::Repeat), texture(8, 4, Wrap::Repeat).filtered(Filtering::SummedArea));
+        // At a centre the texel itself, between two their mean, over all the mean of all.
+        let near = Vec2::new(2.5 / 8.0, 1.0 - 1.5 / 4.0);
+        assert_eq!(sums.lookup(near, &Footprint::default()), [2.0, 1.0, 1.0]);
+        let wide = Footprint { axes: [Vec2::X * 4.0, Vec2::Y * 4.0] };
+        assert!((sums.lookup(near, &wide)[0] - 3.5).abs() < 1e-4);
+        assert!((pyramid.lookup(near, &wide)[0] - 3.5).abs() < 1e-4);
     }
 
     #[test]

@@ -36,8 +36,8 @@ pub(crate) fn way_to(origin: Vec3, direction: Vec3, target: Option<Vec3>) -> (Ve
 /// Of places on an emitting surface those at which a lamp is asked: one is enough for what has no size, none for what is all around.
 pub(crate) fn places_on<'a>(form: &LampForm, on_surface: &'a [[f32; 2]]) -> &'a [[f32; 2]] {
     match form {
-        LampForm::Uniform | LampForm::Image(_) => &[],
-        LampForm::Surface(_) => on_surface,
+        form if form.is_background() => &[],
+        LampForm::Surface(_) | LampForm::Sun(_) => on_surface,
         _ => &on_surface[..1],
     }
 }
@@ -90,6 +90,10 @@ pub(crate) fn ambient<const N: usize, M>(
             LampForm::Image(image) => {
                 pass.emission[lamp] * (image.integral() / (4.0 * std::f64::consts::PI)) as f32
             }
+            // Half of all directions.
+            LampForm::Sky(_) => pass.emission[lamp] * 0.5,
+            // It is asked, as lamps with a place are.
+            LampForm::Sun(_) => Lanes::default(),
             _ => pass.emission[lamp],
         };
     }
@@ -107,10 +111,10 @@ pub(crate) fn add_around<const N: usize, M: IlluminationModel<N> + Prepare>(
     weight: &Lanes<N>,
     to: &mut [Lanes<N>],
 ) {
-    if scene.surroundings.is_empty() {
+    if !scene.surroundings.iter().any(|&lamp| scene.lamps[lamp].form.is_background()) {
         to.iter_mut().zip(ambient).for_each(|(sum, light)| *sum += *weight * *light);
     }
-    for &lamp in &scene.surroundings {
+    for &lamp in scene.surroundings.iter().filter(|&&lamp| scene.lamps[lamp].form.is_background()) {
         to[group_of[lamp]] += *weight * pass.surroundings_in_cone(scene, lamp, direction, radius);
     }
 }

@@ -68,6 +68,25 @@ pub struct TileFilm {
 }
 
 impl TileFilm {
+    fn new(area: [u32; 4], channels: usize) -> Self {
+        let [x0, y0, x1, y1] = area;
+        let pixels = (x1 - x0) as usize * (y1 - y0) as usize;
+        let (samples, sums) = (vec![0; pixels], vec![0; pixels * channels]);
+        Self { area, samples, seen: Vec::new(), sums, channels }
+    }
+
+    /// Adds to the channels of a pixel (by its place in the whole image) without counting a sample.
+    pub fn splat(&mut self, [x, y]: [u32; 2], values: &[f32]) {
+        let pixel = (y - self.area[1]) as usize * self.width() as usize + (x - self.area[0]) as usize;
+        let sums = &mut self.sums[pixel * self.channels..][..self.channels];
+        sums.iter_mut().zip(values).for_each(|(sum, &v)| *sum += fixed(v));
+    }
+
+    /// Counts samples of every pixel.
+    pub fn count(&mut self, samples: u32) {
+        self.samples.iter_mut().for_each(|n| *n += samples);
+    }
+
     /// Adds the channels of one sample of a pixel (by its number within the tile).
     #[inline(always)]
     pub fn add(&mut self, pixel: usize, values: &[f32]) {
@@ -123,6 +142,8 @@ pub struct Film {
     pub plan: Vec<LayerPlan>,
     /// The tiles, row by row.
     pub tiles: Vec<TileFilm>,
+    /// What paths from lamps bring, over the whole crop, if there are such paths.
+    pub from_lamps: Option<TileFilm>,
     channels: usize,
 }
 
@@ -177,17 +198,11 @@ impl Film {
         for y in (y0..y1).step_by(height as usize) {
             for x in (x0..x1).step_by(width as usize) {
                 let area = [x, y, x.saturating_add(width).min(x1), y.saturating_add(height).min(y1)];
-                let pixels = ((area[2] - x) * (area[3] - y)) as usize;
-                tiles.push(TileFilm {
-                    area,
-                    samples: vec![0; pixels],
-                    seen: Vec::new(),
-                    sums: vec![0; pixels * channels],
-                    channels,
-                });
+                tiles.push(TileFilm::new(area, channels));
             }
         }
-        Self { crop, plan, tiles, channels }
+        let from_lamps = settings.caustics.then(|| TileFilm::new(crop, channels));
+        Self { crop, plan, tiles, from_lamps, channels }
     }
 
     /// Channels of a pixel, over all layers.
@@ -201,6 +216,13 @@ impl Film {
     pub fn size(&self) -> [usize; 2] {
         let [x0, y0, x1, y1] = self.crop;
         [(x1 - x0) as usize, (y1 - y0) as usize]
+    }
+
+    /// The number that the channel of a pixel holds over its samples: what its own samples brought, and the paths from lamps.
+    fn mean(&self, pixel: usize, channel: usize, samples: f64, sum: i128) -> f64 {
+        let own = if samples > 0.0 { value(sum) / samples } else { 0.0 };
+        let Some(film) = self.from_lamps.as_ref().filter(|film| film.samples[pixel] > 0) else { return own };
+        own + value(film.sums[pixel * self.channels + channel]) / f64::from(film.samples[pixel])
     }
 
     /// Calls `f` with the place of each pixel in the crop (row-major), its samples and its sums.
@@ -233,13 +255,13 @@ impl Film {
         let depth = plan.layer == Layer::Depth;
         let count = if depth { 1 } else { plan.channels.len() };
         let mut image = vec![0.0; w * h * count];
-        self.for_each(|pixel, samples, sums| {
-            let sums = &sums[plan.channels.clone()];
+        self.for_each(|pixel, samples, all| {
+            let sums = &all[plan.channels.clone()];
             if depth {
                 image[pixel] = if sums[1] == 0 { f64::INFINITY } else { value(sums[0]) / value(sums[1]) };
-            } else if samples > 0 {
-                for (slot, &sum) in image[pixel * count..].iter_mut().zip(sums) {
-                    *slot = value(sum) / f64::from(samples);
+            } else {
+                for (slot, channel) in image[pixel * count..].iter_mut().zip(plan.channels.clone()) {
+                    *slot = self.mean(pixel, channel, f64::from(samples), all[channel]);
                 }
             }
         });
@@ -253,13 +275,25 @@ impl Film {
         let halves = self.plan.iter().find(|plan| plan.layer == Layer::Halves)?;
         let [w, h] = self.size();
         let mut error = vec![f64::INFINITY; w * h];
+        // How far the halves of the light from lamps lie apart: odd samples are one of them.
+        let from_lamps = self.from_lamps.as_ref().map(|film| {
+            move |pixel: usize| {
+                let sums = &film.sums[pixel * self.channels..][..self.channels];
+                let (y, half) = (value(sums[1]), value(sums[halves.channels.start]));
+                let odd = f64::from(film.samples[pixel] / 2);
+                let even = f64::from(film.samples[pixel]) - odd;
+                half / odd.max(1.0) - (y - half) / even.max(1.0)
+            }
+        });
         self.for_each(|pixel, samples, sums| {
             let y = value(sums[1]);
             let (half_y, half_n) =
                 (value(sums[halves.channels.start]), value(sums[halves.channels.start + 1]));
             let other = f64::from(samples) - half_n;
             if half_n > 0.0 && other > 0.0 {
-                error[pixel] = (half_y / half_n - (y - half_y) / other).abs() / 2.0;
+                let apart = half_y / half_n - (y - half_y) / other;
+                let more = from_lamps.as_ref().map_or(0.0, |of| of(pixel));
+                error[pixel] = (apart + more).abs() / 2.0;
             }
         });
         Some(error)

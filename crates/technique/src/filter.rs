@@ -103,6 +103,9 @@ impl Filter {
 /// Offsets are drawn by |f|. Where f is negative a sample counts −1, and all are scaled so that the mean weight is 1.
 #[derive(Clone, Debug)]
 pub struct FilterSampler {
+    filter: Filter,
+    /// ∫f.
+    integral: f64,
     offsets: Vec<f32>,
     /// Where f changes its sign: it is negative beyond.
     sign_change: f32,
@@ -139,7 +142,30 @@ impl FilterSampler {
             Filter::Mitchell { radius } => radius * (4.0 / 7.0),
             _ => f32::MAX,
         };
-        Self { offsets: offsets.collect(), sign_change, scale: (total / signed) as f32 }
+        let (offsets, scale) = (offsets.collect(), (total / signed) as f32);
+        let integral = signed * (x(1) - x(0));
+        Self { filter: *filter, integral, offsets, sign_change, scale }
+    }
+
+    /// One of the pixels along an axis that see a place, drawn by what it counts for them from a number in [0, 1): the number of the pixel,
+    /// and what the place counts for it then. On average each pixel receives what [`Self::offset`] would find.
+    #[must_use]
+    pub fn pixel(&self, place: f32, u: f32) -> [f32; 2] {
+        let (place, radius) = (f64::from(place), f64::from(self.filter.radius()));
+        let first = (place - radius - 0.5).ceil();
+        let value = |i: f64| {
+            let x = place - (first + i) - 0.5;
+            if x.abs() < radius { self.filter.value(x) } else { 0.0 }
+        };
+        let count = (2.0 * radius).ceil() as u32 + 1;
+        let sum: f64 = (0..count).map(|i| value(f64::from(i)).abs()).sum();
+        let mut left = f64::from(u) * sum;
+        let chosen = (0..count).map(f64::from).find(|&i| {
+            left -= value(i).abs();
+            left < 0.0
+        });
+        let Some(chosen) = chosen else { return [first as f32, 0.0] };
+        [(first + chosen) as f32, (value(chosen).signum() * sum / self.integral) as f32]
     }
 
     /// An offset from the centre of the pixel, drawn by the filter, from a number in [0, 1).
@@ -173,6 +199,40 @@ impl FilterSampler {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn places_are_shared_out_among_pixels_as_pixels_draw_them() {
+        for filter in [
+            Filter::Box { radius: 0.5 },
+            Filter::Box { radius: 0.8 },
+            Filter::Tent { radius: 1.0 },
+            Filter::Gaussian { radius: 1.5 },
+            Filter::Mitchell { radius: 2.0 },
+        ] {
+            let sampler = FilterSampler::new(&filter);
+            // Places all over a line: every pixel receives 1, and from places at their mean distance.
+            let (n, mut sum, mut squares) = (200_000u32, 0.0f64, 0.0f64);
+            for i in 0..n {
+                let place = 20.0 * (i as f32 + 0.5) / n as f32;
+                let [pixel, weight] = sampler.pixel(place, (i as f32 * 0.618_034) % 1.0);
+                if pixel == 10.0 {
+                    sum += f64::from(weight);
+                    squares += f64::from(weight * (place - 10.5) * (place - 10.5));
+                }
+            }
+            let per_unit = f64::from(n) / 20.0;
+            assert!((sum / per_unit - 1.0).abs() < 2e-2, "{filter:?} {}", sum / per_unit);
+            let expected: f64 = (0..n)
+                .map(|i| {
+                    let x = sampler.offset((i as f32 + 0.5) / n as f32);
+                    let weight = sampler.weight([x, 0.0]) / sampler.weight([0.0, 0.0]).sqrt();
+                    f64::from(weight * x * x)
+                })
+                .sum::<f64>()
+                / f64::from(n);
+            assert!((squares / per_unit / expected - 1.0).abs() < 4e-2, "{filter:?} {squares} {expected}");
+        }
+    }
 
     #[test]
     fn variances_are_those_of_the_filters() {

@@ -54,4 +54,13 @@ impl Haze {
             values[channel] = self.atmosphere.apply(f64::from(values[channel]), fog, distance) as f32;
         }
     }
+
+    /// Leaves of the light of one surface among others what the air lets pass from its distance; the fog's own light is counted once, by
+    /// [`Self::apply`].
+    pub fn dim(&self, distance: f32, values: &mut [f32]) {
+        for &(channel, _) in &self.channels {
+            values[channel] =
+                self.atmosphere.apply(f64::from(values[channel]), 0.0, f64::from(distance)) as f32;
+        }
+    }
 }

@@ -79,7 +79,9 @@ impl<'a, const N: usize, M: IlluminationModel<N> + Prepare> Interaction<'a, N, M
         let mut own = None;
         if !scene.skins[material].is_bare() {
             let along = scene.geometry.along(ray, hit);
-            let seen = TexturePoint::new(point.uv, along, width, ray.direction, point.geometric_normal);
+            let solid = scene.geometry.at_rest(hit.object as usize, ray.time, point.position);
+            let geometric = point.geometric_normal;
+            let seen = TexturePoint::new(point.uv, along, solid, width, ray.direction, geometric);
             normal = perturbed(scene, material, &seen, normal, to_viewer);
             own = pass.textured(scene, material, &seen, sequence);
         }

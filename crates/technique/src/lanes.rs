@@ -58,6 +58,8 @@ pub struct Pass<const N: usize, M> {
     vacuum: IndexLanes<N>,
     indices: Vec<IndexLanes<N>>,
     absorption: Vec<Option<Lanes<N>>>,
+    /// The least absorption coefficient of each material over the range, 1/m.
+    least_absorption: Vec<f32>,
     /// For each bundle the rows of the map to XYZ: one bundle a group of lamps, and as many more for dispersed light.
     pub to_xyz: Vec<[Lanes<N>; 3]>,
 }
@@ -98,6 +100,10 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
         let absorption = scene.materials.iter().map(|material| match &material.surface {
             Surface::Dielectric { absorption: Some(a), .. } => Some(lanes(&basis.reduce(a, Role::Constant))),
             _ => None,
+        });
+        let least_absorption = scene.materials.iter().map(|material| match &material.surface {
+            Surface::Dielectric { absorption: Some(a), .. } => a.extent(range).0.max(0.0) as f32,
+            _ => 0.0,
         });
         let mut to_xyz: Vec<[Lanes<N>; 3]> =
             groups.iter().map(|&lamp| basis.to_xyz(lamp).each_ref().map(|row| lanes(row))).collect();
@@ -140,6 +146,7 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
             vacuum,
             indices: indices.collect(),
             absorption: absorption.collect(),
+            least_absorption: least_absorption.collect(),
             to_xyz,
             total: basis.len(),
             companion: companion.zip(carried).filter(|(_, own)| samples.contains(own)).map(|(w, own)| {
@@ -188,6 +195,12 @@ impl<const N: usize, M> Pass<N, M> {
         Some(absorption.map(|a| (-a * distance).exp()))
     }
 
+    /// What a distance in a medium leaves of the brightness of a path: as much as of its brightest wavelength.
+    #[inline(always)]
+    pub fn brightness_after(&self, medium: Option<usize>, distance: f32) -> f32 {
+        medium.map_or(1.0, |m| (-self.least_absorption[m] * distance).exp())
+    }
+
     /// The radiance of surroundings in a direction.
     #[inline]
     pub fn surroundings(&self, scene: &Scene, lamp: usize, direction: Vec3) -> Lanes<N> {
@@ -195,6 +208,8 @@ impl<const N: usize, M> Pass<N, M> {
             LampForm::Image(image) => {
                 image.radiance(image.uv(direction), &self.position, &self.emission[lamp])
             }
+            LampForm::Sky(sky) => sky.radiance(direction, &self.position, &self.emission[lamp]),
+            LampForm::Sun(sun) => sun.radiance(direction, &self.position, &self.emission[lamp]),
             _ => self.emission[lamp],
         }
     }
@@ -202,10 +217,7 @@ impl<const N: usize, M> Pass<N, M> {
     /// The light that a lamp gives in the direction in which it was asked.
     #[inline(always)]
     pub fn emission_to(&self, scene: &Scene, lamp: usize, light: &LampSample) -> Lanes<N> {
-        match light.uv {
-            Some(_) => self.surroundings(scene, lamp, light.direction),
-            None => self.emission[lamp],
-        }
+        if light.varies { self.surroundings(scene, lamp, light.direction) } else { self.emission[lamp] }
     }
 
     /// The mean radiance of surroundings in a cone about a direction, `radius` its half-angle in radians.
@@ -215,7 +227,8 @@ impl<const N: usize, M> Pass<N, M> {
                 let uv = image.uv(direction);
                 image.radiance_of_cone(uv, radius, &self.position, &self.emission[lamp])
             }
-            _ => self.emission[lamp],
+            // The sky hardly varies over a highlight.
+            _ => self.surroundings(scene, lamp, direction),
         }
     }
 

@@ -1,11 +1,13 @@
 //! How an image is made: techniques, and what they share (random numbers, reconstruction filter, film, render loop).
 
+mod carried;
 mod direct_light;
 mod film;
 mod filter;
 mod haze;
 mod interaction;
 mod lanes;
+mod light_tracing;
 mod media;
 pub mod pairs;
 mod participating;

@@ -145,6 +145,26 @@ pub fn check_shading(
     Ok(())
 }
 
+/// Refuses cones, and paths from lamps, where they have no meaning.
+///
+/// # Errors
+/// The reason.
+pub fn check_rays(scene: &Scene, settings: &Settings, technique: Technique) -> Result<(), String> {
+    if settings.cones && technique != Technique::Raytrace {
+        return Err(format!("cones go with raytrace alone, whose rays they widen; {technique} has others"));
+    }
+    if !settings.caustics {
+        return Ok(());
+    }
+    if technique != Technique::Path {
+        return Err(format!("caustics go with path alone, which follows all light; {technique} does not"));
+    }
+    if scene.medium.is_some() {
+        return Err("caustics are not followed through what is in the air: the scene has a medium".into());
+    }
+    Ok(())
+}
+
 /// What a technique will not show of a scene.
 pub(crate) fn misfits(scene: &Scene, settings: &Settings) -> Vec<String> {
     let mut found = Vec::new();
@@ -158,14 +178,13 @@ pub(crate) fn misfits(scene: &Scene, settings: &Settings) -> Vec<String> {
             _ => false,
         })
     };
-    let without_size = scene
-        .lamps
-        .iter()
-        .find(|lamp| !matches!(lamp.form, LampForm::Surface(_) | LampForm::Uniform | LampForm::Image(_)));
-    if let (Technique::Path, Some(lamp), Some(glass)) = (technique, without_size, of_glass(true, false)) {
+    let without_size =
+        scene.lamps.iter().find(|lamp| !(lamp.form.surrounds() || matches!(lamp.form, LampForm::Surface(_))));
+    let lamp = without_size.filter(|_| !settings.caustics);
+    if let (Technique::Path, Some(lamp), Some(glass)) = (technique, lamp, of_glass(true, false)) {
         found.push(format!(
             "path does not find the light that {:?} sends through {:?}: a lamp without size is never met behind smooth \
-             glass, so what it gathers is missing and its shadow is black; give the lamp an area",
+             glass, so what it gathers is missing and its shadow is black; --caustics follows it from the lamp",
             lamp.name, scene.materials[glass].name
         ));
     }

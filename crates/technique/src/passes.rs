@@ -10,6 +10,7 @@ use crate::film::{LayerPlan, TOO_LARGE, TileFilm};
 use crate::filter::FilterSampler;
 use crate::haze::Haze;
 use crate::lanes::Pass;
+use crate::light_tracing::{LightTracer, gathering};
 use crate::path::{Counts, PathTracer, Primary, Probe, Query, Recorder, Vertex};
 use crate::ray_tree::RayTree;
 use crate::render::RenderError;
@@ -25,6 +26,9 @@ use illuminant_scene::Scene;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
+
+/// The stream of numbers of paths from lamps: that of no pixel.
+const FROM_LAMPS: u64 = u64::MAX;
 
 /// What a tile needs to know; generic code hides behind [`TileRenderer`].
 pub(crate) struct Job {
@@ -53,6 +57,16 @@ pub(crate) struct TileCounts {
 pub(crate) trait TileRenderer: Send + Sync {
     /// Adds samples to a tile.
     fn tile(&self, job: &Job, tile: &mut TileFilm, samples: Range<u64>) -> TileCounts;
+    /// Follows paths from lamps, and hands on what they bring to the film: pixel and channels.
+    fn paths_from_lamps(
+        &self,
+        _job: &Job,
+        _paths: Range<u64>,
+        _sample: u64,
+        _splat: &mut dyn FnMut([u32; 2], &[f32]),
+    ) -> TileCounts {
+        TileCounts::default()
+    }
     /// Follows one path again, and records all of it; a technique without paths has nothing to record.
     fn replay(&self, _job: &Job, _pixel: [u32; 2], _sample: u64) -> Replay {
         Replay::default()
@@ -97,6 +111,8 @@ pub(crate) enum Light<'a> {
 /// The passes of a sampling in bundles of N lanes, through the model M.
 struct Passes<const N: usize, M> {
     tracer: Tracer,
+    /// How light is followed from lamps, if it is.
+    lamps: Option<LightTracer>,
     /// One list of passes for each wavelength that a path may carry beside the samples; else one list.
     variants: Vec<Vec<Pass<N, M>>>,
 }
@@ -135,9 +151,10 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
         (groups, group_of): (&[usize], &[usize]),
         light: Light<'_>,
     ) -> Self {
-        let tracer = match RayTree::new(settings, technique) {
+        let depth = settings.depth.unwrap_or(u32::MAX);
+        let mut tracer = match RayTree::new(scene, settings, technique) {
             Some(tree) => Tracer::Trees(tree),
-            None => Tracer::Paths(PathTracer { depth: settings.depth.unwrap_or(u32::MAX) }),
+            None => Tracer::Paths(PathTracer { depth, gathered: None }),
         };
         let passes = |basis: &dyn Basis, companion| {
             let mut all = passes_of(scene, illumination, basis, companion, groups, light);
@@ -151,7 +168,13 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
             Some(all) => all.par_iter().map(|w| passes(&Accompanied::new(basis, *w), Some(*w))).collect(),
             None => vec![passes(basis, None)],
         };
-        Self { tracer, variants }
+        let materials = variants.first().and_then(|passes| passes.first()).map(|pass| &pass.materials[..]);
+        let gathered = materials.filter(|_| settings.caustics).map(|materials| gathering(scene, materials));
+        let lamps = gathered.and_then(|gathered| LightTracer::new(scene, gathered, depth));
+        if let (Tracer::Paths(paths), Some(lamps)) = (&mut tracer, &lamps) {
+            paths.gathered = Some(lamps.gathers.clone());
+        }
+        Self { tracer, lamps, variants }
     }
 
     /// The passes of a path. Neighbouring samples of a pixel take wavelengths far apart, neighbouring pixels others.
@@ -189,7 +212,11 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
         let [open, close] = camera.shutter;
         let [u_time, u_lens @ .., _] =
             if chance && (close > open || camera.lens.is_some()) { sequence.next4() } else { [0.0; 4] };
-        let (fx, fy) = (job.filter.offset(u), job.filter.offset(v));
+        let (fx, fy) = match &self.tracer {
+            // A cone is the whole pixel.
+            Tracer::Trees(tree) if tree.has_cones() => (0.0, 0.0),
+            _ => (job.filter.offset(u), job.filter.offset(v)),
+        };
         let [px, py] = [x as f32 + 0.5 + fx, y as f32 + 0.5 + fy];
         let ray =
             if chance { camera.ray_through_lens(px, py, u_time, u_lens) } else { camera.ray(px, py, 0.0) };
@@ -268,6 +295,51 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
                 } else {
                     result.dropped.push((pixel, sample));
                 }
+            }
+        }
+        result
+    }
+
+    fn paths_from_lamps(
+        &self,
+        job: &Job,
+        paths: Range<u64>,
+        sample: u64,
+        splat: &mut dyn FnMut([u32; 2], &[f32]),
+    ) -> TileCounts {
+        let mut result = TileCounts::default();
+        let Some(lamps) = &self.lamps else { return result };
+        let replicates = u64::from(job.settings.replicates.max(1));
+        let [width, height] = job.scene.camera.size.map(u64::from);
+        let (first, replicate) = (sample / replicates * width * height, sample % replicates);
+        // A sample of every pixel is shared out among as many paths as there are pixels.
+        let share = ((width * height) as f32).recip();
+        let mut bundles = self.bundles();
+        let mut values = vec![0.0f32; job.channels];
+        for path in paths {
+            let sequence = job.numbers.sequence(job.settings.seed, FROM_LAMPS, first + path, replicate);
+            for pass in self.variant(job, FROM_LAMPS, first + path) {
+                let scene = &*job.scene;
+                lamps.trace(scene, pass, &job.filter, sequence, &mut result.counts, &mut |lamp, found| {
+                    values.fill(0.0);
+                    bundles.fill(Lanes::default());
+                    bundles[found.bundle + job.group_of[lamp]] = found.radiance * share;
+                    let mut xyz = [0.0f32; 3];
+                    let sound = add_xyz(pass, &bundles, &mut xyz);
+                    values[..3].copy_from_slice(&xyz);
+                    spectral_layers(job, pass, &bundles, &mut values);
+                    if let Some(haze) = &job.haze {
+                        haze.dim(found.distance, &mut values);
+                    }
+                    for layer in job.plan.iter().filter(|plan| plan.layer == Layer::Halves) {
+                        values[layer.channels.start] = if sample % 2 == 1 { values[1] } else { 0.0 };
+                    }
+                    if sound && values.iter().all(|v| v.abs() < TOO_LARGE) {
+                        splat(found.pixel, &values);
+                    } else {
+                        result.dropped.push((found.pixel, sample));
+                    }
+                });
             }
         }
         result

@@ -4,10 +4,10 @@
 //! Where a path goes never depends on the lanes, only on seed, pixel, sample and the brightness of materials; so every
 //! spectral sampling follows the same paths, and `1nm` may follow them pass by pass.
 
+use crate::carried::{Carried, ROULETTE_FROM};
 use crate::direct_light::way_to;
 use crate::interaction::{Interaction, next_surface};
 use crate::lanes::Pass;
-use crate::media::Media;
 use crate::participating::{Draws, MediumLanes};
 use crate::sequence::Sequence;
 use glam::Vec3;
@@ -15,19 +15,19 @@ use illuminant_illumination::{IlluminationModel, Prepare};
 use illuminant_sampling::Lanes;
 use illuminant_scene::{Hit, Ray, Scene, SurfacePoint};
 
-/// After this many segments a path may be ended by chance.
-const ROULETTE_FROM: u32 = 5;
-
 /// The part of a pixel that one path sees of a texture: many paths share a pixel.
 pub(crate) const OF_PIXEL: f32 = 0.5;
 /// The part of a lobe that one path sees of a texture behind it.
 pub(crate) const OF_LOBE: f32 = 0.125;
 
 /// How paths are followed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct PathTracer {
     /// The longest path in segments.
     pub depth: u32,
+    /// Of each material whether what its discrete lobes make of lamps on a surface that scatters is left to paths from the lamps; `None`
+    /// where there are no such paths.
+    pub gathered: Option<Vec<bool>>,
 }
 
 /// What the camera sees first along a path.
@@ -149,13 +149,7 @@ pub(crate) fn sum<const N: usize>(radiance: &[Lanes<N>]) -> Lanes<N> {
 /// The state of a path between two vertices.
 struct State<const N: usize> {
     ray: Ray,
-    throughput: Lanes<N>,
-    brightness: f32,
-    media: Media,
-    /// The sample that is left after a dispersive refraction.
-    hero: Option<usize>,
-    /// The first of the bundles that take the light: those of dispersed light are others.
-    bundle: usize,
+    light: Carried<N>,
     /// Where the last direction was drawn, with which normal and density; `None` after a discrete lobe or the camera.
     origin: Option<(Vec3, Vec3, f32)>,
     /// Where the next vertex looks on a lamp.
@@ -165,20 +159,10 @@ struct State<const N: usize> {
     cone: [f32; 2],
     /// By what distances in the air are drawn, once they are.
     draws: Option<Draws>,
-}
-
-impl<const N: usize> State<N> {
-    /// Russian roulette by brightness: whether the path goes on, which then counts for those that do not.
-    #[inline(always)]
-    fn survives(&mut self, u: f32) -> bool {
-        let survival = self.brightness.min(0.98);
-        if u >= survival {
-            return false;
-        }
-        self.throughput *= survival.recip();
-        self.brightness /= survival;
-        true
-    }
+    /// Whether the first surface scattered the path.
+    scattered_first: bool,
+    /// Whether what a lamp sends along the path is found from the lamp.
+    from_lamps: bool,
 }
 
 impl PathTracer {
@@ -201,26 +185,24 @@ impl PathTracer {
         let mut primary = Primary::default();
         let mut path = State {
             ray,
-            throughput: Lanes::splat(1.0),
-            brightness: 1.0,
-            media: Media::default(),
-            hero: None,
-            bundle: 0,
+            light: Carried::new(Lanes::splat(1.0)),
             origin: None,
             u_lamp,
             cone: [0.0, OF_PIXEL * scene.camera.pixel_angle()],
             draws: None,
+            scattered_first: false,
+            from_lamps: false,
         };
         for segment in 1..=self.depth {
-            let (before, open) = (path.ray, path.media.innermost().is_none());
-            let State { ray, media, throughput, .. } = &mut path;
+            let (before, open) = (path.ray, path.light.media.innermost().is_none());
+            let State { ray, light: Carried { media, throughput, .. }, .. } = &mut path;
             let met = next_surface(scene, pass, ray, media, throughput, probe);
             if let Some(medium) = pass.medium.as_ref().filter(|_| open) {
                 let length = met.as_ref().map_or(f32::INFINITY, |(.., distance)| *distance);
                 let draws = path.draws.get_or_insert_with(|| Draws::new(sequence.next4()[0]));
                 let found = medium.travel(before.origin, before.direction, length, draws, &mut sequence);
-                path.throughput *= found.weight;
-                path.brightness *= found.brightness;
+                path.light.throughput *= found.weight;
+                path.light.brightness *= found.brightness;
                 if let Some(distance) = found.scattered {
                     path.ray = before;
                     path.cone[0] += path.cone[1] * distance;
@@ -252,13 +234,14 @@ impl PathTracer {
             path.cone[0] += path.cone[1] * distance;
             let object = &scene.objects[hit.object as usize];
             let before = if P::VERTICES { sum(radiance) } else { Lanes::default() };
-            let arriving = path.throughput;
+            let arriving = path.light.throughput;
             if let Some(lamp) =
                 object.lamp.filter(|&l| scene.lamps[l].emits(point.geometric_normal, path.ray.direction))
             {
                 let weight = self.weight_of_hit(scene, &path, lamp, &hit, &point)
                     * scene.lamps[lamp].relative_radiance(point.geometric_normal, path.ray.direction);
-                radiance[path.bundle + group_of[lamp]] += path.throughput * pass.emission[lamp] * weight;
+                radiance[path.light.bundle + group_of[lamp]] +=
+                    path.light.throughput * pass.emission[lamp] * weight;
                 primary.emits |= segment == 1;
             }
             if segment == 1 {
@@ -308,45 +291,39 @@ impl PathTracer {
         radiance: &mut [Lanes<N>],
         probe: &mut P,
     ) -> bool {
-        let to_viewer = -path.ray.direction;
-        let hero_lane = path.hero.and_then(|sample| pass.lane(sample));
+        let hero_lane = path.light.hero.and_then(|sample| pass.lane(sample));
         let [width, _] = path.cone;
-        let met =
-            Interaction::new(scene, pass, &path.ray, hit, point, path.media, width, hero_lane, sequence);
+        let met = Interaction::new(
+            scene,
+            pass,
+            &path.ray,
+            hit,
+            point,
+            path.light.media,
+            width,
+            hero_lane,
+            sequence,
+        );
         let model = met.model();
         let [u_lobe, u_survival, u_choice, u_hero] = sequence.next4();
         let [u, v, next_lamp @ ..] = sequence.next4();
         if model.is_continuous() {
             self.ask_lamp(scene, pass, group_of, path, point, &met, u_choice, sequence, radiance, probe);
         }
-        // The sample that a dispersive refraction here would keep: the path's own wavelength, or any of `1nm`.
-        let (hero_sample, factor) = match pass.carried {
-            Some(own) => (own, 1.0),
-            None => (((u_hero * pass.total as f32) as usize).min(pass.total - 1), pass.total as f32),
-        };
-        let hero_lane = pass.lane(path.hero.unwrap_or(hero_sample));
-        let Some(drawn) = model.sample(&met.at, [u, v, u_lobe], hero_lane) else { return false };
-        let direction = met.frame.to_world(drawn.direction);
-        let outward = direction.dot(point.geometric_normal);
-        // Light must leave on the side on which the model says it does.
-        if (outward * to_viewer.dot(point.geometric_normal) > 0.0) == drawn.transmitted {
+        let Some(drawn) = path.light.turn(pass, &met, point, path.ray.direction, [u, v, u_lobe], u_hero)
+        else {
             return false;
-        }
-        path.throughput *= drawn.weight;
-        path.brightness *= drawn.brightness;
-        if drawn.disperses {
-            let Some(lane) = hero_lane else { return false };
-            path.hero = Some(hero_sample);
-            path.throughput = path.throughput.only(lane, factor);
-            path.bundle = pass.dispersed.unwrap_or(0);
-        }
-        if drawn.transmitted && model.bounds_media() {
-            path.media = met.beyond;
-        }
-        if segment >= ROULETTE_FROM && !path.survives(u_survival) {
+        };
+        let direction = drawn.direction;
+        if segment >= ROULETTE_FROM && !path.light.survives(u_survival) {
             return false;
         }
         path.u_lamp = next_lamp;
+        let gathers = self.gathered.as_ref().is_some_and(|gathered| {
+            drawn.pdf.is_none() && gathered[scene.objects[hit.object as usize].material]
+        });
+        path.scattered_first |= segment == 1 && !gathers;
+        path.from_lamps = gathers && path.scattered_first;
         path.ray = Ray { origin: point.offset(direction), direction, time: path.ray.time };
         path.origin = drawn.pdf.map(|pdf| (point.position, met.normal, pdf));
         // A drawn direction stands for 1/pdf of solid angle.
@@ -401,15 +378,15 @@ impl PathTracer {
             return;
         }
         let emission = pass.emission_to(scene, lamp, &light);
-        let mut arriving = path.throughput * f * emission * weight;
-        let medium = if local.z * at.to_viewer.z > 0.0 { path.media } else { met.beyond };
+        let mut arriving = path.light.throughput * f * emission * weight;
+        let medium = if local.z * at.to_viewer.z > 0.0 { path.light.media } else { met.beyond };
         if let Some(kept) = pass.transmittance(medium.innermost(), span.length().min(f32::MAX)) {
             arriving *= kept;
         }
         if let Some(air) = pass.medium.as_ref().filter(|_| medium.innermost().is_none()) {
             arriving *= air.left_of(origin, span, tfar, sequence);
         }
-        radiance[path.bundle + group_of[lamp]] += arriving;
+        radiance[path.light.bundle + group_of[lamp]] += arriving;
     }
 
     /// Asks a lamp where a medium scatters, then draws the next direction; whether the path goes on.
@@ -445,10 +422,11 @@ impl PathTracer {
             if !scene.geometry.is_occluded(place, span, time, tfar) {
                 let emission = pass.emission_to(scene, lamp, &light);
                 let left = medium.left_of(place, span, tfar, sequence);
-                radiance[path.bundle + group_of[lamp]] += path.throughput * emission * left * (weight * p);
+                radiance[path.light.bundle + group_of[lamp]] +=
+                    path.light.throughput * emission * left * (weight * p);
             }
         }
-        if segment >= ROULETTE_FROM && !path.survives(u_survival) {
+        if segment >= ROULETTE_FROM && !path.light.survives(u_survival) {
             return false;
         }
         let direction = phase.sample(along, [u, v]);
@@ -470,7 +448,9 @@ impl PathTracer {
         hit: &Hit,
         point: &SurfacePoint,
     ) -> f32 {
-        let Some((from, normal, pdf)) = path.origin else { return 1.0 };
+        let Some((from, normal, pdf)) = path.origin else {
+            return f32::from(u8::from(!path.from_lamps));
+        };
         let asked = scene.chooser.probability(&scene.lamps, from, normal, lamp)
             * scene.lamps[lamp].pdf_of_hit(&scene.geometry, from, path.ray.time, hit, point);
         power_heuristic(pdf, asked)
@@ -485,17 +465,22 @@ impl PathTracer {
         path: &State<N>,
         radiance: &mut [Lanes<N>],
     ) {
+        if path.from_lamps {
+            return;
+        }
         for &lamp in &scene.surroundings {
-            let weight = match (&scene.lamps[lamp].form, path.origin) {
-                (illuminant_scene::LampForm::Image(image), Some((from, normal, pdf))) => {
-                    let asked = scene.chooser.probability(&scene.lamps, from, normal, lamp)
-                        * image.pdf(image.uv(path.ray.direction));
-                    power_heuristic(pdf, asked)
+            let light = pass.surroundings(scene, lamp, path.ray.direction);
+            if light.is_zero() {
+                continue;
+            }
+            let weight = match (path.origin, scene.lamps[lamp].pdf_of_direction(path.ray.direction)) {
+                (Some((from, normal, pdf)), Some(asked)) => {
+                    let chance = scene.chooser.probability(&scene.lamps, from, normal, lamp);
+                    power_heuristic(pdf, asked * chance)
                 }
                 _ => 1.0,
             };
-            let light = pass.surroundings(scene, lamp, path.ray.direction);
-            radiance[path.bundle + group_of[lamp]] += path.throughput * light * weight;
+            radiance[path.light.bundle + group_of[lamp]] += path.light.throughput * light * weight;
         }
     }
 }

@@ -17,9 +17,10 @@ use crate::path::{OF_LOBE, OF_PIXEL, Primary, Probe, Vertex, power_heuristic, su
 use crate::sequence::Sequence;
 use crate::settings::{LightCentres, Settings, Technique};
 use glam::Vec3;
-use illuminant_illumination::{Blurred, IlluminationModel, Prepare};
+use illuminant_illumination::{Blurred, IlluminationModel, Incidence, Prepare};
 use illuminant_sampling::Lanes;
-use illuminant_scene::{Hit, LampForm, Ray, Scene, SurfacePoint};
+use illuminant_scene::{Cone, ConeIndex, Hit, LampForm, Layer, Leaves, Ray, Scene, SurfacePoint};
+use std::f32::consts::{FRAC_1_PI, FRAC_2_SQRT_PI};
 
 /// The longest chain of rays where no depth is stated: only perfect mirrors that face each other would go on.
 const DEEPEST: u32 = 100;
@@ -37,6 +38,8 @@ pub(crate) struct RayTree {
     fixed: Option<Vec<[f32; 2]>>,
     /// Whether places on lamps are drawn without regard to each other.
     random: bool,
+    /// What cones meet, where rays are cones.
+    cones: Option<ConeIndex>,
 }
 
 /// The middles of so many equal parts of a square.
@@ -54,8 +57,10 @@ fn grid(count: u32) -> Vec<[f32; 2]> {
 #[derive(Clone, Copy, Debug)]
 struct Branch<const N: usize> {
     ray: Ray,
-    /// What its radiance is multiplied by.
+    /// What its radiance is multiplied by, in every lane.
     throughput: Lanes<N>,
+    /// The same as one number, which decides whether it is followed.
+    brightness: f32,
     media: Media,
     /// How many rays lead to its end.
     segment: u32,
@@ -65,6 +70,55 @@ struct Branch<const N: usize> {
     lamps: Met,
     /// Its own numbers, so that what becomes of one branch changes nothing in another.
     sequence: Sequence,
+    /// The surface that it leaves.
+    leaves: Option<Leaves>,
+}
+
+/// A smaller part of a cone is not looked at.
+const LEAST_COVER: f32 = 1e-4;
+
+/// What nearer surfaces leave free of a cone.
+///
+/// Of two objects it is not known how their parts lie to each other, and the further one is taken to be covered as the whole cone is. The
+/// far side of a body is hidden by its near side.
+struct Free {
+    left: f32,
+    /// The near sides that have been met: object, and the part of the cone.
+    near: Vec<(u32, f32)>,
+}
+
+impl Default for Free {
+    fn default() -> Self {
+        Self { left: 1.0, near: Vec::new() }
+    }
+}
+
+impl Free {
+    /// The part of the cone in which a surface is seen.
+    fn take(&mut self, layer: &Layer) -> f32 {
+        let hidden = match layer.from_outside {
+            true => 0.0,
+            false => {
+                self.near.iter().filter(|(object, _)| *object == layer.object).map(|(_, cover)| cover).sum()
+            }
+        };
+        // Of what the body itself does not hide.
+        let cover = ((layer.cover - hidden) / (1.0 - hidden).max(1e-6)).clamp(0.0, 1.0);
+        if layer.from_outside {
+            self.near.push((layer.object, layer.cover));
+        }
+        let visible = self.left * cover;
+        self.left -= visible;
+        visible
+    }
+
+    /// A surface was none.
+    fn give_back(&mut self, layer: &Layer, visible: f32) {
+        self.left += visible;
+        if layer.from_outside {
+            self.near.pop();
+        }
+    }
 }
 
 /// What becomes of lamps that a ray meets.
@@ -89,7 +143,7 @@ struct Traced<'a, const N: usize, M, P> {
 
 impl RayTree {
     /// What settings ask for; `None` for a technique that follows no trees.
-    pub fn new(settings: &Settings, technique: Technique) -> Option<Self> {
+    pub fn new(scene: &Scene, settings: &Settings, technique: Technique) -> Option<Self> {
         let distributed = match technique {
             Technique::Raytrace => false,
             Technique::Distributed => true,
@@ -98,6 +152,8 @@ impl RayTree {
         let fixed = match settings.light_centres {
             LightCentres::Fixed(count) => Some(grid(count)),
             // Without chance there is nothing to jitter.
+            // A cone sees all of a lamp from its middle.
+            _ if settings.cones => Some(grid(1)),
             _ if !distributed => Some(ON_LAMP.to_vec()),
             _ => None,
         };
@@ -107,7 +163,13 @@ impl RayTree {
             distributed,
             fixed,
             random: settings.light_centres == LightCentres::Random,
+            cones: settings.cones.then(|| ConeIndex::new(&scene.geometry, scene.camera.shutter[0])),
         })
+    }
+
+    /// Whether rays are cones.
+    pub fn has_cones(&self) -> bool {
+        self.cones.is_some()
     }
 
     /// Whether anything is drawn.
@@ -129,19 +191,26 @@ impl RayTree {
         radiance: &mut [Lanes<N>],
         probe: &mut P,
     ) -> Primary {
+        // A cone stands for a pixel: the circle of its area.
+        let across = if self.cones.is_some() { FRAC_2_SQRT_PI } else { OF_PIXEL };
         let mut traced = Traced { scene, pass, group_of, radiance, probe };
         let mut primary = None;
         let mut left = vec![Branch {
             ray,
             throughput: Lanes::splat(1.0),
+            brightness: 1.0,
             media: Media::default(),
             segment: 1,
-            cone: [0.0, OF_PIXEL * scene.camera.pixel_angle()],
+            cone: [0.0, across * scene.camera.pixel_angle()],
             lamps: Met::Seen,
             sequence,
+            leaves: None,
         }];
         while let Some(branch) = left.pop() {
-            let seen = self.follow(&mut traced, branch, sample, &mut left);
+            let seen = match &self.cones {
+                Some(cones) => self.follow_cone(cones, &mut traced, branch, sample, &mut left),
+                None => self.follow(&mut traced, branch, sample, &mut left),
+            };
             primary.get_or_insert(seen);
         }
         primary.unwrap_or_default()
@@ -155,16 +224,111 @@ impl RayTree {
         sample: u64,
         left: &mut Vec<Branch<N>>,
     ) -> Primary {
-        let (scene, pass) = (traced.scene, traced.pass);
+        let around = branch.media.innermost();
         let Branch { ray, media, throughput, .. } = &mut branch;
-        let met = next_surface(scene, pass, ray, media, throughput, traced.probe);
-        let Some((hit, point, distance)) = met else {
-            for &lamp in &scene.surroundings {
-                let light = pass.surroundings(scene, lamp, branch.ray.direction);
-                traced.radiance[traced.group_of[lamp]] += branch.throughput * light;
-            }
-            return Primary { surface: None, emits: !scene.surroundings.is_empty() };
+        let met = next_surface(traced.scene, traced.pass, ray, media, throughput, traced.probe);
+        let Some((hit, point, distance)) = met else { return self.miss(traced, &branch) };
+        branch.brightness *= traced.pass.brightness_after(around, distance);
+        self.arrive(traced, branch, (&hit, &point, distance), sample, left)
+    }
+
+    /// Follows one cone (Amanatides 1984): every surface in it adds what it shows, weighed by the part of the cone that it covers and that
+    /// nearer ones leave free.
+    #[inline(never)]
+    fn follow_cone<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
+        &self,
+        cones: &ConeIndex,
+        traced: &mut Traced<'_, N, M, P>,
+        mut branch: Branch<N>,
+        sample: u64,
+        left: &mut Vec<Branch<N>>,
+    ) -> Primary {
+        let (scene, pass) = (traced.scene, traced.pass);
+        let cone = Cone {
+            origin: branch.ray.origin,
+            direction: branch.ray.direction,
+            radius: 0.5 * branch.cone[0],
+            spread: 0.5 * branch.cone[1],
+            length: f32::MAX,
         };
+        traced.probe.closest(&branch.ray);
+        let mut primary = None;
+        let mut free = Free::default();
+        for layer in cones.meet(&cone, branch.leaves) {
+            let visible = free.take(&layer);
+            if visible < LEAST_COVER {
+                continue;
+            }
+            let material = scene.objects[layer.object as usize].material;
+            let priority = scene.priorities[material];
+            if branch.media.hides(material, priority) && pass.materials[material].bounds_media() {
+                // Where another body hides it, a boundary is passed; its part of the cone goes on.
+                free.give_back(&layer, visible);
+                let media = branch.media;
+                branch.media =
+                    if layer.from_outside { media.entered(material, priority) } else { media.left(material) };
+                continue;
+            }
+            let direction = (layer.point - branch.ray.origin).normalize_or(branch.ray.direction);
+            let ray = Ray { direction, ..branch.ray };
+            let hit = scene.geometry.hit_at(&ray, layer.object, layer.primitive, layer.point);
+            let point = scene.geometry.surface(&ray, &hit);
+            let mut part = branch;
+            part.ray = ray;
+            part.throughput *= visible;
+            let around = branch.media.innermost();
+            if let Some(kept) = pass.transmittance(around, layer.distance) {
+                part.throughput *= kept;
+            }
+            part.brightness *= visible * pass.brightness_after(around, layer.distance);
+            let seen = self.arrive(traced, part, (&hit, &point, layer.distance), sample, left);
+            primary.get_or_insert(seen);
+            if free.left < LEAST_COVER {
+                break;
+            }
+        }
+        if free.left >= LEAST_COVER {
+            branch.throughput *= free.left;
+            let seen = self.miss(traced, &branch);
+            primary.get_or_insert(seen);
+        }
+        primary.unwrap_or_default()
+    }
+
+    /// Adds the surroundings where nothing else is met.
+    fn miss<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
+        &self,
+        traced: &mut Traced<'_, N, M, P>,
+        branch: &Branch<N>,
+    ) -> Primary {
+        let (scene, pass) = (traced.scene, traced.pass);
+        for &lamp in &scene.surroundings {
+            let data = &scene.lamps[lamp];
+            let weight = match branch.lamps {
+                // What is all around is not asked.
+                _ if data.form.is_background() => 1.0,
+                Met::Seen => 1.0,
+                Met::Asked => 0.0,
+                Met::Both(_, pdf) => {
+                    power_heuristic(pdf, data.pdf_of_direction(branch.ray.direction).unwrap_or(0.0))
+                }
+            };
+            let light = pass.surroundings(scene, lamp, branch.ray.direction);
+            traced.radiance[traced.group_of[lamp]] += branch.throughput * light * weight;
+        }
+        Primary { surface: None, emits: !scene.surroundings.is_empty() }
+    }
+
+    /// Adds what a surface sends along a branch that has met it at a distance, and leaves the rays that it asks for.
+    fn arrive<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
+        &self,
+        traced: &mut Traced<'_, N, M, P>,
+        mut branch: Branch<N>,
+        (hit, point, distance): (&Hit, &SurfacePoint, f32),
+        sample: u64,
+        left: &mut Vec<Branch<N>>,
+    ) -> Primary {
+        let (scene, pass) = (traced.scene, traced.pass);
         branch.cone[0] += branch.cone[1] * distance;
         let before = if P::VERTICES { sum(traced.radiance) } else { Lanes::default() };
         let object = &scene.objects[hit.object as usize];
@@ -176,14 +340,14 @@ impl RayTree {
                 Met::Asked => 0.0,
                 Met::Both(from, pdf) => power_heuristic(
                     pdf,
-                    scene.lamps[lamp].pdf_of_hit(&scene.geometry, from, branch.ray.time, &hit, &point),
+                    scene.lamps[lamp].pdf_of_hit(&scene.geometry, from, branch.ray.time, hit, point),
                 ),
             } * scene.lamps[lamp]
                 .relative_radiance(point.geometric_normal, branch.ray.direction);
             traced.radiance[traced.group_of[lamp]] += branch.throughput * pass.emission[lamp] * weight;
         }
         if branch.segment < self.depth {
-            self.shade(traced, &branch, &hit, &point, sample, left);
+            self.shade(traced, &branch, hit, point, sample, left);
         }
         if P::VERTICES {
             traced.probe.vertex(Vertex {
@@ -239,43 +403,51 @@ impl RayTree {
         }
         if model.is_continuous() {
             for lamp in 0..scene.lamps.len() {
-                self.ask(traced, branch, point, &met, lamp, glossy, sample, sequence);
+                self.ask(traced, branch, (hit.object, point), &met, lamp, glossy, sample, sequence);
             }
         }
         let to_viewer = -branch.ray.direction;
-        let mut go =
-            |direction: Vec3, weight: Lanes<N>, transmitted: bool, spread: f32, lamps: Met, probe: &mut P| {
-                let outward = direction.dot(point.geometric_normal);
-                // Light must leave on the side on which the model says it does.
-                if (outward * to_viewer.dot(point.geometric_normal) > 0.0) == transmitted {
-                    return;
-                }
-                let throughput = branch.throughput * weight;
-                if throughput.is_zero() {
-                    return;
-                }
-                if throughput.0.iter().all(|w| *w <= self.threshold) {
-                    probe.pruned();
-                    return;
-                }
-                let number = match lamps {
-                    Met::Both(..) => 2,
-                    _ => u64::from(transmitted),
-                };
-                let media = if transmitted && model.bounds_media() { met.beyond } else { branch.media };
-                left.push(Branch {
-                    ray: Ray { origin: point.offset(direction), direction, time: branch.ray.time },
-                    throughput,
-                    media,
-                    segment: branch.segment + 1,
-                    cone: [branch.cone[0], branch.cone[1] + spread],
-                    lamps,
-                    sequence: branch.sequence.branch(number),
-                });
+        let mut go = |direction: Vec3,
+                      weight: (Lanes<N>, f32),
+                      transmitted: bool,
+                      spread: f32,
+                      lamps: Met,
+                      probe: &mut P| {
+            let outward = direction.dot(point.geometric_normal);
+            // Light must leave on the side on which the model says it does.
+            if (outward * to_viewer.dot(point.geometric_normal) > 0.0) == transmitted {
+                return;
+            }
+            let (throughput, brightness) = (branch.throughput * weight.0, branch.brightness * weight.1);
+            if throughput.is_zero() {
+                return;
+            }
+            // By one number for all lanes, so that every spectral sampling follows the same rays.
+            if brightness <= self.threshold {
+                probe.pruned();
+                return;
+            }
+            let number = match lamps {
+                Met::Both(..) => 2,
+                _ => u64::from(transmitted),
             };
+            let media = if transmitted && model.bounds_media() { met.beyond } else { branch.media };
+            left.push(Branch {
+                ray: Ray { origin: point.offset(direction), direction, time: branch.ray.time },
+                throughput,
+                brightness,
+                media,
+                segment: branch.segment + 1,
+                cone: [branch.cone[0], branch.cone[1] + spread],
+                lamps,
+                sequence: branch.sequence.branch(number),
+                leaves: Some(Leaves { object: hit.object, outwards: outward > 0.0 }),
+            });
+        };
         for lobe in model.discrete_lobes(&met.at) {
             let mut direction = lobe.direction;
-            let (mut spread, mut lamps) = (0.0, Met::Seen);
+            let mut spread = self.bent(scene, branch, hit, &met.at, lobe.transmitted);
+            let mut lamps = Met::Seen;
             if self.distributed {
                 let [u, v, ..] = sequence.next4();
                 match model.blurred(&met.at, &lobe, [u, v]) {
@@ -286,7 +458,8 @@ impl RayTree {
                     Blurred::Lost => continue,
                 }
             }
-            go(met.frame.to_world(direction), lobe.weight, lobe.transmitted, spread, lamps, traced.probe);
+            let weight = (lobe.weight, lobe.brightness);
+            go(met.frame.to_world(direction), weight, lobe.transmitted, spread, lamps, traced.probe);
         }
         if glossy {
             let [u, v, choice, _] = sequence.next4();
@@ -294,7 +467,8 @@ impl RayTree {
                 let spread = drawn.pdf.map_or(0.0, |pdf| OF_LOBE * pdf.max(1e-3).sqrt().recip());
                 let lamps = drawn.pdf.map_or(Met::Seen, |pdf| Met::Both(point.position, pdf));
                 let direction = met.frame.to_world(drawn.direction);
-                go(direction, drawn.weight, drawn.transmitted, spread, lamps, traced.probe);
+                let weight = (drawn.weight, drawn.brightness);
+                go(direction, weight, drawn.transmitted, spread, lamps, traced.probe);
             }
         }
     }
@@ -304,7 +478,7 @@ impl RayTree {
         &self,
         traced: &mut Traced<'_, N, M, P>,
         branch: &Branch<N>,
-        point: &SurfacePoint,
+        (object, point): (u32, &SurfacePoint),
         met: &Interaction<'_, N, M>,
         lamp: usize,
         glossy: bool,
@@ -319,7 +493,7 @@ impl RayTree {
                 &fixed[place..=place]
             }
             Some(fixed) => fixed,
-            None if matches!(scene.lamps[lamp].form, LampForm::Surface(_)) => {
+            None if matches!(scene.lamps[lamp].form, LampForm::Surface(_) | LampForm::Sun(_)) => {
                 let [u, v, ..] = if self.random { sequence.independent4() } else { sequence.next4() };
                 own = [[u, v]];
                 &own
@@ -328,8 +502,54 @@ impl RayTree {
         };
         let time = branch.ray.time;
         arriving_from(scene, lamp, point.position, time, places, &mut |light| {
-            self.receive(traced, branch, point, met, glossy, &light);
+            self.receive(traced, branch, (object, point), met, glossy, &light);
         });
+    }
+
+    /// By how much more a cone spreads that a sphere mirrors or bends, as its normal turns over the width of the cone.
+    fn bent<const N: usize>(
+        &self,
+        scene: &Scene,
+        branch: &Branch<N>,
+        hit: &Hit,
+        at: &Incidence<'_, N>,
+        transmitted: bool,
+    ) -> f32 {
+        let sphere = scene.geometry.sphere(hit.object as usize).filter(|_| self.cones.is_some());
+        let Some((_, radius)) = sphere else { return 0.0 };
+        let turn = if transmitted { (1.0 - at.near.mean / at.far.mean).abs() } else { 2.0 };
+        turn * branch.cone[0] / radius
+    }
+
+    /// The part of a lamp that a part of a surface sees: of the cone from one to the other what nothing stands in.
+    fn free_of<const N: usize>(
+        &self,
+        cones: &ConeIndex,
+        scene: &Scene,
+        branch: &Branch<N>,
+        object: u32,
+        point: &SurfacePoint,
+        light: &Arriving,
+    ) -> f32 {
+        let own = match &scene.lamps[light.lamp].form {
+            LampForm::Surface(surface) => Some(surface.object as u32),
+            _ => None,
+        };
+        // A lamp is asked at some places, and each stands for its part.
+        let places = self.fixed.as_ref().map_or(1, Vec::len) as f32;
+        let tangent = light.pdf.map_or(0.0, |pdf| (FRAC_1_PI / (pdf * places)).sqrt());
+        let radius = 0.5 * branch.cone[0];
+        let length = light.target.map_or(f32::MAX, |target| target.distance(point.position));
+        let spread = if length < f32::MAX { tangent - radius / length } else { tangent };
+        let cone = Cone { origin: point.position, direction: light.direction, radius, spread, length };
+        let outwards = light.direction.dot(point.geometric_normal) > 0.0;
+        let mut free = Free::default();
+        for layer in cones.meet(&cone, Some(Leaves { object, outwards })) {
+            if Some(layer.object) != own {
+                free.take(&layer);
+            }
+        }
+        free.left
     }
 
     /// Adds light that arrives, if nothing stands in its way.
@@ -337,7 +557,7 @@ impl RayTree {
         &self,
         traced: &mut Traced<'_, N, M, P>,
         branch: &Branch<N>,
-        point: &SurfacePoint,
+        (object, point): (u32, &SurfacePoint),
         met: &Interaction<'_, N, M>,
         glossy: bool,
         light: &Arriving,
@@ -360,10 +580,15 @@ impl RayTree {
         let origin = point.offset(light.direction);
         let (span, tfar) = way_to(origin, light.direction, light.target);
         traced.probe.occlusion(origin, span, tfar);
-        if scene.geometry.is_occluded(origin, span, branch.ray.time, tfar) {
+        let free = match &self.cones {
+            Some(cones) => self.free_of(cones, scene, branch, object, point, light),
+            None => f32::from(u8::from(!scene.geometry.is_occluded(origin, span, branch.ray.time, tfar))),
+        };
+        if free < LEAST_COVER {
             return;
         }
-        let mut arriving = branch.throughput * f * pass.emission[light.lamp] * (light.scale * local.z.abs());
+        let scale = free * light.scale * local.z.abs();
+        let mut arriving = branch.throughput * f * pass.emission[light.lamp] * scale;
         let medium = if local.z * met.at.to_viewer.z > 0.0 { branch.media } else { met.beyond };
         if let Some(kept) = pass.transmittance(medium.innermost(), span.length().min(f32::MAX)) {
             arriving *= kept;

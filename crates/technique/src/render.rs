@@ -16,8 +16,8 @@ use illuminant_scene::Scene;
 use illuminant_spectrum::{Curve, Observer};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
@@ -119,6 +119,7 @@ impl Render {
         let illumination: Illumination = settings.illumination.parse().map_err(RenderError::Setting)?;
         pairs::check(technique, illumination).map_err(RenderError::Setting)?;
         pairs::check_shading(&scene, &settings, technique, illumination).map_err(RenderError::Setting)?;
+        pairs::check_rays(&scene, &settings, technique).map_err(RenderError::Setting)?;
         if technique.is_scanline() && settings.layers.contains(&Layer::Lamps) {
             return Err(RenderError::Setting(format!("{technique} does not keep lamps apart; path does")));
         }
@@ -208,7 +209,8 @@ impl Render {
         let count = samples.end.saturating_sub(samples.start);
         let [w, h] = self.film.size();
         progress.done.store(0, Ordering::Relaxed);
-        progress.total.store((w * h) as u64 * count, Ordering::Relaxed);
+        let ends = 1 + u64::from(self.film.from_lamps.is_some());
+        progress.total.store((w * h) as u64 * count * ends, Ordering::Relaxed);
         let (job, renderer, tiles) = (&self.job, &*self.renderer, &mut self.film.tiles);
         let results: Vec<Option<TileCounts>> = self.pool.install(|| {
             tiles
@@ -224,8 +226,10 @@ impl Render {
                 })
                 .collect()
         });
-        let complete = results.iter().all(Option::is_some);
-        for result in results.into_iter().flatten() {
+        let mut complete = results.iter().all(Option::is_some);
+        let mut results: Vec<TileCounts> = results.into_iter().flatten().collect();
+        complete &= self.run_from_lamps(samples, progress, &mut results);
+        for result in results {
             self.statistics.samples += result.samples;
             self.statistics.closest += result.counts.closest;
             self.statistics.occlusion += result.counts.occlusion;
@@ -241,6 +245,60 @@ impl Render {
         }
         self.statistics.elapsed += start.elapsed();
         complete
+    }
+
+    /// Follows the paths from lamps that belong to samples, as many as the image has pixels to each; false when it was cancelled.
+    fn run_from_lamps(
+        &mut self,
+        samples: Range<u64>,
+        progress: &Progress,
+        results: &mut Vec<TileCounts>,
+    ) -> bool {
+        /// Paths that are followed at once.
+        const PATHS: u64 = 4096;
+        let Some(film) = &mut self.film.from_lamps else { return true };
+        let (job, renderer) = (&self.job, &*self.renderer);
+        let paths: u64 = job.scene.camera.size.iter().map(|&v| u64::from(v)).product();
+        let pixels = film.samples.len() as u64;
+        // Few samples at a time, so that a cancelled run has not begun what it does not finish.
+        let step = (16 * PATHS / paths).max(1);
+        let mut from = samples.start;
+        while from < samples.end {
+            if progress.is_cancelled() {
+                return false;
+            }
+            let part = from..(from + step).min(samples.end);
+            from = part.end;
+            let missing: Vec<u64> = film.claim(part.clone()).into_iter().flatten().collect();
+            let work: Vec<(u64, Range<u64>)> = missing
+                .iter()
+                .flat_map(|&sample| {
+                    (0..paths.div_ceil(PATHS)).map(move |i| (sample, i * PATHS..((i + 1) * PATHS).min(paths)))
+                })
+                .collect();
+            let shared = Mutex::new(&mut *film);
+            let found: Vec<TileCounts> = self.pool.install(|| {
+                work.into_par_iter()
+                    .with_max_len(1)
+                    .map(|(sample, paths)| {
+                        let (mut places, mut values) = (Vec::new(), Vec::new());
+                        let counts = renderer.paths_from_lamps(job, paths, sample, &mut |pixel, channels| {
+                            places.push(pixel);
+                            values.extend_from_slice(channels);
+                        });
+                        let mut film = shared.lock().unwrap_or_else(PoisonError::into_inner);
+                        for (pixel, channels) in places.iter().zip(values.chunks(job.channels)) {
+                            film.splat(*pixel, channels);
+                        }
+                        counts
+                    })
+                    .collect()
+            });
+            film.count(missing.len() as u32);
+            results.extend(found);
+            progress.done.fetch_add(pixels * (part.end - part.start), Ordering::Relaxed);
+        }
+        true
     }
 
     /// Finds the first vertex at which a dropped sample was no radiance.

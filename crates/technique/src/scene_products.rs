@@ -114,7 +114,7 @@ fn follow(
 fn along_paths(settings: &Settings) -> Option<((Technique, Illumination), Settings)> {
     let technique: Technique = settings.technique.parse().ok()?;
     let illumination = settings.illumination.parse().ok()?;
-    let mut settings = settings.clone();
+    let mut settings = Settings { caustics: false, ..settings.clone() };
     if technique.is_scanline() {
         settings.depth = Some(settings.depth.unwrap_or(2).min(2));
     }

@@ -194,6 +194,10 @@ pub struct Settings {
     pub strata: u32,
     /// The weight below which ray tracing follows a ray no more.
     pub threshold: f64,
+    /// Whether the rays of `raytrace` are cones.
+    pub cones: bool,
+    /// Whether `path` finds from the lamps what mirrors and smooth glass make of their light on other surfaces.
+    pub caustics: bool,
     /// Where ray tracing asks lamps that have an area.
     pub light_centres: LightCentres,
     /// The ambient light of all techniques but `path` as a fraction of what lamps would make of a white diffuser in the middle of
@@ -229,6 +233,8 @@ impl Default for Settings {
             sampler: Sampler::default(),
             strata: 16,
             threshold: 0.002,
+            cones: false,
+            caustics: false,
             light_centres: LightCentres::default(),
             ambient: 0.15,
             interpolation: Interpolation::default(),

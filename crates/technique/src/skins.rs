@@ -146,7 +146,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> SkinLanes<N, M> {
     /// The colour at a point, in lanes and as one number.
     pub fn colour(&self, skin: &Skin, point: &TexturePoint) -> Option<(Lanes<N>, f32)> {
         let (lanes, colour) = self.colour.as_ref().zip(skin.colour.as_ref())?;
-        Some(lanes.of(colour.texture.lookup(point.uv, &point.footprint)))
+        Some(lanes.of(colour.texture.at(point)))
     }
 
     /// The material with a rung of the ladder, or `base` where there is none, and a colour.

@@ -73,6 +73,13 @@ def render(
             help="Random numbers: sobol-owen, random, stratified, jittered, poisson-disk (sobol-owen).",
         ),
     ] = None,
+    caustics: Annotated[
+        bool,
+        typer.Option(
+            "--caustics",
+            help="Let path follow light from the lamps too, through what mirrors and bends it.",
+        ),
+    ] = False,
     threshold: Annotated[
         float | None,
         typer.Option(
@@ -81,6 +88,13 @@ def render(
             help="Weight below which raytrace and distributed follow a ray no more (0.002).",
         ),
     ] = None,
+    cones: Annotated[
+        bool,
+        typer.Option(
+            "--cones",
+            help="Let the rays of raytrace be cones: smooth with one sample a pixel.",
+        ),
+    ] = False,
     light_centres: Annotated[
         str | None,
         typer.Option(
@@ -267,7 +281,9 @@ def render(
         "time": time,
         "error": error,
         "sampler": sampler,
+        "caustics": caustics or None,
         "threshold": threshold,
+        "cones": cones or None,
         "light_centres": light_centres,
         "ambient": ambient,
         "interpolation": interpolation,
@@ -296,6 +312,7 @@ def _again(scene: Path, options: dict[str, Any]) -> str:
     given = [
         part for name in names if options[name] is not None for part in (f"--{name}", str(options[name]))
     ]
+    given += ["--caustics"] if options["caustics"] else []
     return shlex.join(["illuminant", "render", str(scene), *given])
 
 

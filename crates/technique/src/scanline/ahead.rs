@@ -118,7 +118,8 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
             let along = along_texture(corners.map(|c| c.position), corners.map(|c| c.uv));
             let from_eye = position - self.projection.eye;
             let width = self.pixel_angle * from_eye.length();
-            TexturePoint::new(uv, along, width, from_eye.normalize_or(-face.normal), face.normal)
+            // Nothing moves here.
+            TexturePoint::new(uv, along, position, width, from_eye.normalize_or(-face.normal), face.normal)
         });
         Place {
             texture,

@@ -190,12 +190,18 @@ impl ShadowMap {
                 let view = View::parallel(direction.as_dvec3(), surfaces, size);
                 return Self { position: None, views: vec![view] };
             }
+            LampForm::Sun(sun) => {
+                let view = View::parallel(-sun.direction().as_dvec3(), surfaces, size);
+                return Self { position: None, views: vec![view] };
+            }
             LampForm::Surface(lamp) => lamp.place(&scene.geometry, u),
             LampForm::Point { position }
             | LampForm::Luminaire { position, .. }
             | LampForm::Photometric { position, .. }
             | LampForm::Spot { position, .. } => *position,
-            LampForm::Uniform | LampForm::Image(_) => return Self { position: None, views: Vec::new() },
+            LampForm::Uniform | LampForm::Image(_) | LampForm::Sky(_) => {
+                return Self { position: None, views: Vec::new() };
+            }
         };
         let eye = position.as_dvec3();
         let views: Vec<View> = match form {
