@@ -275,11 +275,11 @@ impl<const N: usize> Coated<N> {
         let metal = self.layers.body.metal.as_ref();
         let covered = metal.map_or(0.0, |m| m.coverage);
         let metal = metal.map_or_else(Lanes::default, |m| m.mean);
-        Lanes(std::array::from_fn(|i| {
+        Lanes::from_fn(|i| {
             let r = (1.0 - covered) * pigment.0[i] + covered * metal.0[i];
             let mean = tables.mean.0[i];
             if mean > 0.0 { Self::share(r, mean, tables.kept.0[i], eta) / mean } else { 0.0 }
-        }))
+        })
     }
 
     /// Where between black pigment and white a pigment lies, by what leaves.
@@ -288,10 +288,10 @@ impl<const N: usize> Coated<N> {
         let tables = self.tables(at);
         let [black, own, white] =
             [Lanes::splat(0.0), *pigment, Lanes::splat(1.0)].map(|p| self.colour_of(tables, eta, &p));
-        Lanes(std::array::from_fn(|i| {
+        Lanes::from_fn(|i| {
             let whole = white.0[i] - black.0[i];
             if whole > 0.0 { (own.0[i] - black.0[i]) / whole } else { 0.0 }
-        }))
+        })
     }
 
     /// The largest C of a pigment, as one number.

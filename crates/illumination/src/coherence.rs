@@ -100,7 +100,7 @@ impl ByPhase {
         let at = |node: usize| {
             let value =
                 |(i, w): (usize, f32)| (1.0 - w) * self.values[i][node] + w * self.values[i + 1][node];
-            Lanes(std::array::from_fn(|lane| value(places[lane])))
+            Lanes::from_fn(|lane| value(places[lane]))
         };
         (0..self.values[0].len()).map(at).collect()
     }
@@ -394,7 +394,7 @@ impl<const M: usize> Closed<M> {
     pub fn reflectance(&self, grid: &Grid, own: &Lanes<M>, eta: f32, v: Vec3) -> Lanes<M> {
         let table = interpolated(grid, &self.reflected, v);
         let expected = |i: usize| View::new(self.phase.0[i] * own.0[i], v.z, Some(eta), self.slope).expected;
-        Lanes(std::array::from_fn(|i| table.0[i] * expected(i)))
+        Lanes::from_fn(|i| table.0[i] * expected(i))
     }
 }
 

@@ -47,7 +47,7 @@ impl<const N: usize> Metal<N> {
     pub(crate) fn reflectance(&self, cos: f32, near: &Lanes<N>) -> Lanes<N> {
         match self {
             Self::Index { n, k } => {
-                Lanes(std::array::from_fn(|i| conductor(cos, n.0[i] / near.0[i], k.0[i] / near.0[i])))
+                Lanes::from_fn(|i| conductor(cos, n.0[i] / near.0[i], k.0[i] / near.0[i]))
             }
             Self::Colour { normal, k } => {
                 let (average, at_normal) = (conductor(cos, 1.0, *k), conductor(1.0, 1.0, *k));

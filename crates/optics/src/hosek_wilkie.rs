@@ -113,14 +113,16 @@ impl HosekWilkie {
         }
         let cos = gamma.cos();
         let (down, root) = ((cos_theta + 0.01).recip(), cos_theta.sqrt());
-        std::array::from_fn(|w| {
+        let mut all = [0.0; WAVELENGTHS];
+        for (w, value) in all.iter_mut().enumerate() {
             let [a, b, c, d, e, f, g, i, h] = self.shape[w];
             let lobe = 1.0 + h * h - 2.0 * h * cos;
             let mie = (1.0 + cos * cos) / (lobe * lobe.sqrt());
             let horizon = 1.0 + a * (b * down).exp();
             let around = c + d * (e * gamma).exp() + f * cos * cos + g * mie + i * root;
-            (self.mean[w] * horizon * around).max(0.0)
-        })
+            *value = (self.mean[w] * horizon * around).max(0.0);
+        }
+        all
     }
 
     /// The radiance of the sky at a wavelength, nm: between those of the dataset linear, outside that of the nearest.

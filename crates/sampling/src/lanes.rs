@@ -46,25 +46,43 @@ impl<const N: usize> Lanes<N> {
         lanes
     }
 
+    /// Each lane by its number.
+    #[inline(always)]
+    #[must_use]
+    pub fn from_fn(f: impl Fn(usize) -> f32) -> Self {
+        // A plain loop: `array::from_fn` leaves a call a lane where `f` is long.
+        let mut all = [0.0; N];
+        for (i, v) in all.iter_mut().enumerate() {
+            *v = f(i);
+        }
+        Self(all)
+    }
+
     /// A function of each lane.
     #[inline(always)]
     #[must_use]
-    pub fn map(self, f: impl Fn(f32) -> f32) -> Self {
-        Self(std::array::from_fn(|i| f(self.0[i])))
+    pub fn map(mut self, f: impl Fn(f32) -> f32) -> Self {
+        for v in &mut self.0 {
+            *v = f(*v);
+        }
+        self
     }
 
     /// A function of each pair of lanes.
     #[inline(always)]
     #[must_use]
-    pub fn zip(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
-        Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
+    pub fn zip(mut self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
+        for (v, w) in self.0.iter_mut().zip(&other.0) {
+            *v = f(*v, *w);
+        }
+        self
     }
 
     /// self · a + b, lane by lane, rounded once.
     #[inline(always)]
     #[must_use]
     pub fn mul_add(self, a: Self, b: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i].mul_add(a.0[i], b.0[i])))
+        Self::from_fn(|i| self.0[i].mul_add(a.0[i], b.0[i]))
     }
 
     /// The sum of products with another bundle: one row of a map to XYZ. The order of the sum is fixed.

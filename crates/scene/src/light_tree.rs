@@ -3,9 +3,9 @@
 //!
 //! Each node knows a box around its lamps, a cone around the directions into which they face, and their strength. From a point, a node counts
 //! its strength times the largest cosine that any of its lamps can have, over the square of the distance: what it can be expected to bring.
-//! One number in [0, 1) walks from the root to a lamp, at each node in proportion to what its halves count; so the time is that of the depth
-//! of the tree. The cosine at the point is left out: what lies there may let light through. Bounds may say of a node that it brings
-//! something when neither half does: then no lamp is chosen, and the point takes nothing for this time, which is what it is.
+//! One number in [0, 1) walks from the root to a lamp, at each node in proportion to what its parts count; so the time is that of the depth
+//! of the tree, and halves of halves are put together to eight parts, which are weighed at once. The cosine at the point is left out: what lies there may let light through. Bounds may say of a node that it brings
+//! something when none of its parts does: then no lamp is chosen, and the point takes nothing for this time, which is what it is.
 
 use crate::lamp::Lamp;
 use crate::lamp_chooser::LampChooser;
@@ -18,8 +18,8 @@ const BINS: usize = 12;
 /// The least and the most part of the choices that go to lamps with a place, where there are others too.
 const SHARE: [f32; 2] = [0.1, 0.9];
 
-/// The least chance of one of two halves that both bring something.
-const LEAST: f32 = 1e-6;
+/// How many parts a node has at most: as many as are weighed at once.
+const PARTS: usize = 8;
 
 /// Where lamps are, into which directions they shine, and how strongly.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,18 +92,22 @@ impl Extent {
     }
 }
 
-/// An extent as it is asked from points.
-#[derive(Clone, Copy, Debug)]
+/// Extents as they are asked from points, so many at once; the rest count nothing.
+#[derive(Clone, Copy, Debug, Default)]
 struct Bounds {
-    middle: Vec3,
+    x: [f32; PARTS],
+    y: [f32; PARTS],
+    z: [f32; PARTS],
     /// The square of half the diagonal of the box.
-    radius2: f32,
-    axis: Vec3,
-    cos_facing: f32,
-    sin_facing: f32,
-    cos_spread: f32,
-    two_sided: bool,
-    strength: f32,
+    radius2: [f32; PARTS],
+    /// The axis.
+    along: [[f32; PARTS]; 3],
+    cos_facing: [f32; PARTS],
+    sin_facing: [f32; PARTS],
+    cos_spread: [f32; PARTS],
+    /// 1 where both sides shine.
+    two_sided: [f32; PARTS],
+    strength: [f32; PARTS],
 }
 
 /// cos max(a − b, 0), from sines and cosines.
@@ -119,50 +123,64 @@ fn sin_less(sin_a: f32, cos_a: f32, sin_b: f32, cos_b: f32) -> f32 {
 }
 
 impl Bounds {
-    fn new(extent: &Extent) -> Self {
+    fn set(&mut self, i: usize, extent: &Extent) {
         let (sin_facing, cos_facing) = extent.facing.sin_cos();
-        Self {
-            middle: extent.middle(),
-            radius2: 0.25 * (extent.high - extent.low).length_squared(),
-            axis: extent.axis,
-            cos_facing,
-            sin_facing: sin_facing.max(0.0),
-            cos_spread: extent.spread.cos(),
-            two_sided: extent.two_sided,
-            strength: extent.strength,
+        [self.x[i], self.y[i], self.z[i]] = extent.middle().to_array();
+        self.radius2[i] = 0.25 * (extent.high - extent.low).length_squared();
+        for (slot, v) in self.along.iter_mut().zip(extent.axis.to_array()) {
+            slot[i] = v;
         }
+        self.cos_facing[i] = cos_facing;
+        self.sin_facing[i] = sin_facing.max(0.0);
+        self.cos_spread[i] = extent.spread.cos();
+        self.two_sided[i] = f32::from(u8::from(extent.two_sided));
+        self.strength[i] = extent.strength;
     }
 
-    /// What the lamps can be expected to bring to a point.
+    /// What the lamps of each part can be expected to bring to a point. No branch, so that all parts go through at once.
     #[inline(always)]
-    fn importance(&self, point: Vec3) -> f32 {
-        let d = point - self.middle;
-        let d2 = d.length_squared();
-        let near = d2.max(self.radius2).max(1e-12);
-        if d2 <= self.radius2 {
+    fn importance(&self, point: Vec3) -> [f32; PARTS] {
+        let mut all = [0.0; PARTS];
+        // A plain loop, which the compiler turns into one pass over all lanes.
+        for (i, value) in all.iter_mut().enumerate() {
+            let (dx, dy, dz) = (point.x - self.x[i], point.y - self.y[i], point.z - self.z[i]);
+            let d2 = dx * dx + dy * dy + dz * dz;
+            let radius2 = self.radius2[i];
+            let near = d2.max(radius2).max(1e-12);
+            let dot = dx * self.along[0][i] + dy * self.along[1][i] + dz * self.along[2][i];
+            let cos = dot / d2.max(1e-24).sqrt();
+            let cos_w = if self.two_sided[i] > 0.0 { cos.abs() } else { cos };
+            let sin_w = (1.0 - cos_w * cos_w).max(0.0).sqrt();
+            let sin_b2 = (radius2 / d2.max(1e-24)).min(1.0);
+            let (sin_b, cos_b) = (sin_b2.sqrt(), (1.0 - sin_b2).sqrt());
+            let cos_x = cos_less(sin_w, cos_w, self.sin_facing[i], self.cos_facing[i]);
+            let sin_x = sin_less(sin_w, cos_w, self.sin_facing[i], self.cos_facing[i]);
+            let cos = cos_less(sin_x, cos_x, sin_b, cos_b);
+            // A lamp on its very edge may round to nothing that it is not.
+            let faces = if cos <= self.cos_spread[i] - 1e-5 { 0.0 } else { cos.max(1e-3) };
             // Inside: any of them may face the point.
-            return self.strength / near;
+            let faces = if d2 <= radius2 { 1.0 } else { faces };
+            *value = self.strength[i] * faces / near;
         }
-        let mut cos_w = d.dot(self.axis) / d2.sqrt();
-        if self.two_sided {
-            cos_w = cos_w.abs();
-        }
-        let sin_w = (1.0 - cos_w * cos_w).max(0.0).sqrt();
-        let sin_b2 = self.radius2 / d2;
-        let (sin_b, cos_b) = (sin_b2.sqrt(), (1.0 - sin_b2).max(0.0).sqrt());
-        let cos_x = cos_less(sin_w, cos_w, self.sin_facing, self.cos_facing);
-        let sin_x = sin_less(sin_w, cos_w, self.sin_facing, self.cos_facing);
-        let cos = cos_less(sin_x, cos_x, sin_b, cos_b);
-        // A lamp on its very edge may round to nothing that it is not.
-        if cos <= self.cos_spread - 1e-5 { 0.0 } else { self.strength * cos.max(1e-3) / near }
+        all
     }
 }
 
-#[derive(Clone, Copy, Debug)]
+/// A node: up to eight parts, each a node again or a lamp.
+#[derive(Clone, Copy, Debug, Default)]
 struct Node {
     bounds: Bounds,
-    parent: u32,
-    /// The first of two children that follow each other, or a lamp.
+    /// For each part its node, or its lamp.
+    next: [u32; PARTS],
+    is_lamp: [bool; PARTS],
+    /// The node of which this is a part, and which.
+    parent: (u32, u8),
+}
+
+/// A part of a tree of halves, from which the tree is made.
+struct Half {
+    extent: Extent,
+    /// The first of two halves that follow each other, or a lamp.
     next: u32,
     is_lamp: bool,
 }
@@ -173,8 +191,10 @@ const NONE: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 pub struct LightTree {
     nodes: Vec<Node>,
-    /// The leaf of each lamp that has a place.
-    leaves: Vec<u32>,
+    /// All lamps with a place together.
+    whole: Bounds,
+    /// The node, and its part, of each lamp that has a place.
+    leaves: Vec<(u32, u8)>,
     /// Lamps without a place, with running sums of what they bring anywhere.
     afar: Vec<(usize, f32)>,
 }
@@ -192,11 +212,16 @@ impl LightTree {
             .filter_map(|(i, e)| Some((i, (*e)?)))
             .filter(|(_, e)| sound(e))
             .collect();
-        let mut tree = Self { nodes: Vec::new(), leaves: vec![NONE; extents.len()], afar: Vec::new() };
+        let mut tree = Self {
+            nodes: Vec::new(),
+            whole: Bounds::default(),
+            leaves: vec![(NONE, 0); extents.len()],
+            afar: Vec::new(),
+        };
         if !placed.is_empty() {
-            let root = Node { bounds: Bounds::new(&placed[0].1), parent: NONE, next: 0, is_lamp: true };
-            tree.nodes.push(root);
-            tree.build(0, &mut placed);
+            let halves = halves(&mut placed);
+            tree.whole.set(0, &halves[0].extent);
+            tree.gather(&halves);
         }
         let mut sum = 0.0;
         for (lamp, &light) in afar.iter().enumerate() {
@@ -208,52 +233,70 @@ impl LightTree {
         tree
     }
 
-    fn build(&mut self, root: usize, placed: &mut [(usize, Extent)]) {
-        // A stack instead of calls, for lamps that all lie in one place make a deep tree.
-        let mut left = vec![(root, 0, placed.len())];
-        while let Some((node, begin, end)) = left.pop() {
-            let lamps = &mut placed[begin..end];
-            let whole = lamps[1..].iter().fold(lamps[0].1, |sum, (_, e)| sum.union(e));
-            self.nodes[node].bounds = Bounds::new(&whole);
-            if let [(lamp, _)] = lamps {
-                self.nodes[node].next = *lamp as u32;
-                self.nodes[node].is_lamp = true;
-                self.leaves[*lamp] = node as u32;
-                continue;
+    /// Puts halves together to nodes: of the parts that a node has, the strongest is cut until there are eight.
+    fn gather(&mut self, halves: &[Half]) {
+        self.nodes.push(Node::default());
+        let mut left = vec![(0usize, 0usize)];
+        while let Some((node, root)) = left.pop() {
+            let mut parts = vec![root];
+            while parts.len() < PARTS {
+                let strength = |&i: &usize| halves[parts[i]].extent.strength;
+                let open = (0..parts.len()).filter(|&i| !halves[parts[i]].is_lamp);
+                let Some(i) = open.max_by(|a, b| strength(a).total_cmp(&strength(b))) else { break };
+                let next = halves[parts[i]].next as usize;
+                parts[i] = next;
+                parts.push(next + 1);
             }
-            let middle = begin + split(lamps, &whole);
-            let first = self.nodes.len() as u32;
-            self.nodes[node].next = first;
-            self.nodes[node].is_lamp = false;
-            let child = Node { bounds: self.nodes[node].bounds, parent: node as u32, next: 0, is_lamp: true };
-            self.nodes.extend([child; 2]);
-            left.push((first as usize, begin, middle));
-            left.push((first as usize + 1, middle, end));
+            for (i, &part) in parts.iter().enumerate() {
+                let half = &halves[part];
+                self.nodes[node].bounds.set(i, &half.extent);
+                self.nodes[node].is_lamp[i] = half.is_lamp;
+                self.nodes[node].next[i] = if half.is_lamp {
+                    self.leaves[half.next as usize] = (node as u32, i as u8);
+                    half.next
+                } else {
+                    let child = self.nodes.len();
+                    self.nodes.push(Node { parent: (node as u32, i as u8), ..Node::default() });
+                    left.push((child, part));
+                    child as u32
+                };
+            }
         }
     }
 
     /// The chance of the tree as a whole, against lamps without a place.
     #[inline]
     fn share(&self, point: Vec3) -> f32 {
-        let placed = self.nodes.first().map_or(0.0, |root| root.bounds.importance(point));
         let afar = self.afar.last().map_or(0.0, |(_, sum)| *sum);
-        match (placed > 0.0, afar > 0.0) {
-            (true, true) => (placed / (placed + afar)).clamp(SHARE[0], SHARE[1]),
-            (true, false) => 1.0,
-            (false, _) => 0.0,
+        if afar <= 0.0 {
+            return f32::from(u8::from(!self.nodes.is_empty()));
+        }
+        let [placed, ..] = self.whole.importance(point);
+        if placed > 0.0 { (placed / (placed + afar)).clamp(SHARE[0], SHARE[1]) } else { 0.0 }
+    }
+}
+
+/// The halves of all lamps, the halves of those, and so on; the whole is the first.
+fn halves(placed: &mut [(usize, Extent)]) -> Vec<Half> {
+    let whole = |lamps: &[(usize, Extent)]| lamps[1..].iter().fold(lamps[0].1, |sum, (_, e)| sum.union(e));
+    let mut all = vec![Half { extent: whole(placed), next: 0, is_lamp: false }];
+    // A stack instead of calls, for lamps that all lie in one place make a deep tree.
+    let mut left = vec![(0, 0, placed.len())];
+    while let Some((half, begin, end)) = left.pop() {
+        let lamps = &mut placed[begin..end];
+        if let [(lamp, _)] = lamps {
+            (all[half].next, all[half].is_lamp) = (*lamp as u32, true);
+            continue;
+        }
+        let middle = begin + split(lamps, &all[half].extent);
+        let first = all.len();
+        all[half].next = first as u32;
+        for (i, (begin, end)) in [(begin, middle), (middle, end)].into_iter().enumerate() {
+            all.push(Half { extent: whole(&placed[begin..end]), next: 0, is_lamp: false });
+            left.push((first + i, begin, end));
         }
     }
-
-    /// The chance of the first child of a node; `None` where neither brings anything.
-    #[inline(always)]
-    fn first(&self, node: &Node, point: Vec3) -> Option<f32> {
-        let next = node.next as usize;
-        let [a, b] = [next, next + 1].map(|i| self.nodes[i].bounds.importance(point));
-        let sum = a + b;
-        // Neither of two that both bring something rounds to none.
-        let [least, most] = if a > 0.0 && b > 0.0 { [LEAST, 1.0 - LEAST] } else { [0.0, 1.0] };
-        (sum > 0.0 && sum.is_finite()).then(|| (a / sum).clamp(least, most))
-    }
+    all
 }
 
 /// Orders lamps so that those of one half come first; how many they are.
@@ -315,15 +358,31 @@ impl LampChooser for LightTree {
         }
         let (mut u, mut probability) = (u / share, share);
         let mut node = self.nodes.first()?;
-        while !node.is_lamp {
-            let first = self.first(node, point)?;
-            let second = u >= first;
-            let chance = if second { 1.0 - first } else { first };
-            u = ((if second { u - first } else { u }) / chance).min(1.0 - f32::EPSILON / 2.0);
-            probability *= chance;
-            node = &self.nodes[node.next as usize + usize::from(second)];
+        loop {
+            let weights = node.bounds.importance(point);
+            let sum: f32 = weights.iter().sum();
+            if !(sum > 0.0 && sum.is_finite()) {
+                return None;
+            }
+            let mut left = u * sum;
+            let mut chosen = None;
+            for (i, &weight) in weights.iter().enumerate() {
+                if weight > 0.0 {
+                    chosen = Some((i, weight, left));
+                    if left < weight {
+                        break;
+                    }
+                }
+                left -= weight;
+            }
+            let (i, weight, left) = chosen?;
+            u = (left / weight).clamp(0.0, 1.0 - f32::EPSILON / 2.0);
+            probability *= weight / sum;
+            if node.is_lamp[i] {
+                return (probability > 0.0).then_some((node.next[i] as usize, probability));
+            }
+            node = &self.nodes[node.next[i] as usize];
         }
-        (probability > 0.0).then_some((node.next as usize, probability))
     }
 
     fn probability(&self, _lamps: &[Lamp], point: Vec3, _normal: Vec3, lamp: usize) -> f32 {
@@ -333,27 +392,27 @@ impl LampChooser for LightTree {
             let before = if i == 0 { 0.0 } else { self.afar[i - 1].1 };
             return (1.0 - share) * ((self.afar[i].1 - before) / total);
         }
-        let leaf = self.leaves[lamp];
-        if leaf == NONE {
+        let (mut node, mut part) = self.leaves[lamp];
+        if node == NONE {
             return 0.0;
         }
         // From the root down, so that the product is the very one of `choose`.
-        let mut way = [0u32; 64];
-        let (mut depth, mut at) = (0, leaf);
-        let mut longer = Vec::new();
-        while at != 0 {
-            match way.get_mut(depth) {
-                Some(slot) => *slot = at,
-                None => longer.push(at),
+        let mut way = Vec::with_capacity(16);
+        loop {
+            way.push((node, part));
+            if node == 0 {
+                break;
             }
-            depth += 1;
-            at = self.nodes[at as usize].parent;
+            (node, part) = self.nodes[node as usize].parent;
         }
         let mut probability = share;
-        for &child in longer.iter().rev().chain(way[..depth.min(64)].iter().rev()) {
-            let parent = &self.nodes[self.nodes[child as usize].parent as usize];
-            let Some(first) = self.first(parent, point) else { return 0.0 };
-            probability *= if child == parent.next { first } else { 1.0 - first };
+        for &(node, part) in way.iter().rev() {
+            let weights = self.nodes[node as usize].bounds.importance(point);
+            let sum: f32 = weights.iter().sum();
+            if !(sum > 0.0 && sum.is_finite()) {
+                return 0.0;
+            }
+            probability *= weights[usize::from(part)] / sum;
         }
         probability
     }
