@@ -214,7 +214,8 @@ mod tests {
             let (n, mut sum, mut squares) = (200_000u32, 0.0f64, 0.0f64);
             for i in 0..n {
                 let place = 20.0 * (i as f32 + 0.5) / n as f32;
-                let [pixel, weight] = sampler.pixel(place, (i as f32 * 0.618_034) % 1.0);
+                let u = (f64::from(i) * 0.618_033_988_749_895).fract();
+                let [pixel, weight] = sampler.pixel(place, u as f32);
                 if pixel == 10.0 {
                     sum += f64::from(weight);
                     squares += f64::from(weight * (place - 10.5) * (place - 10.5));

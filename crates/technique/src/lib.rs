@@ -1,6 +1,7 @@
 //! How an image is made: techniques, and what they share (random numbers, reconstruction filter, film, render loop).
 
 mod carried;
+mod cone_tracing;
 mod direct_light;
 mod film;
 mod filter;

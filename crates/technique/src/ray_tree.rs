@@ -9,6 +9,7 @@
 //! over the samples of a pixel, one ray a query, what is asked for: where on a lamp, about which facet a rough surface mirrors, when
 //! while the shutter is open, and through which point of the lens.
 
+use crate::cone_tracing::LEAST_COVER;
 use crate::direct_light::{Arriving, ON_LAMP, add_around, arriving_from, way_to};
 use crate::interaction::{Interaction, next_surface};
 use crate::lanes::Pass;
@@ -17,10 +18,10 @@ use crate::path::{OF_LOBE, OF_PIXEL, Primary, Probe, Vertex, power_heuristic, su
 use crate::sequence::Sequence;
 use crate::settings::{LightCentres, Settings, Technique};
 use glam::Vec3;
-use illuminant_illumination::{Blurred, IlluminationModel, Incidence, Prepare};
+use illuminant_illumination::{Blurred, IlluminationModel, Prepare};
 use illuminant_sampling::Lanes;
-use illuminant_scene::{Cone, ConeIndex, Hit, LampForm, Layer, Leaves, Ray, Scene, SurfacePoint};
-use std::f32::consts::{FRAC_1_PI, FRAC_2_SQRT_PI};
+use illuminant_scene::{ConeIndex, Hit, LampForm, Leaves, Ray, Scene, SurfacePoint};
+use std::f32::consts::FRAC_2_SQRT_PI;
 
 /// The longest chain of rays where no depth is stated: only perfect mirrors that face each other would go on.
 const DEEPEST: u32 = 100;
@@ -35,11 +36,11 @@ pub(crate) struct RayTree {
     /// Whether queries are spread over the samples of a pixel.
     distributed: bool,
     /// Where lamps with an area are asked, if that is fixed.
-    fixed: Option<Vec<[f32; 2]>>,
+    pub(crate) fixed: Option<Vec<[f32; 2]>>,
     /// Whether places on lamps are drawn without regard to each other.
     random: bool,
     /// What cones meet, where rays are cones.
-    cones: Option<ConeIndex>,
+    pub(crate) cones: Option<ConeIndex>,
 }
 
 /// The middles of so many equal parts of a square.
@@ -55,75 +56,28 @@ fn grid(count: u32) -> Vec<[f32; 2]> {
 
 /// A ray to be followed.
 #[derive(Clone, Copy, Debug)]
-struct Branch<const N: usize> {
-    ray: Ray,
+pub(crate) struct Branch<const N: usize> {
+    pub(crate) ray: Ray,
     /// What its radiance is multiplied by, in every lane.
-    throughput: Lanes<N>,
+    pub(crate) throughput: Lanes<N>,
     /// The same as one number, which decides whether it is followed.
-    brightness: f32,
-    media: Media,
+    pub(crate) brightness: f32,
+    pub(crate) media: Media,
     /// How many rays lead to its end.
-    segment: u32,
+    pub(crate) segment: u32,
     /// The cone of light that it stands for: its width at the origin, and how it grows with distance.
-    cone: [f32; 2],
+    pub(crate) cone: [f32; 2],
     /// Lamps that are met.
-    lamps: Met,
+    pub(crate) lamps: Met,
     /// Its own numbers, so that what becomes of one branch changes nothing in another.
-    sequence: Sequence,
+    pub(crate) sequence: Sequence,
     /// The surface that it leaves.
-    leaves: Option<Leaves>,
-}
-
-/// A smaller part of a cone is not looked at.
-const LEAST_COVER: f32 = 1e-4;
-
-/// What nearer surfaces leave free of a cone.
-///
-/// Of two objects it is not known how their parts lie to each other, and the further one is taken to be covered as the whole cone is. The
-/// far side of a body is hidden by its near side.
-struct Free {
-    left: f32,
-    /// The near sides that have been met: object, and the part of the cone.
-    near: Vec<(u32, f32)>,
-}
-
-impl Default for Free {
-    fn default() -> Self {
-        Self { left: 1.0, near: Vec::new() }
-    }
-}
-
-impl Free {
-    /// The part of the cone in which a surface is seen.
-    fn take(&mut self, layer: &Layer) -> f32 {
-        let hidden = match layer.from_outside {
-            true => 0.0,
-            false => {
-                self.near.iter().filter(|(object, _)| *object == layer.object).map(|(_, cover)| cover).sum()
-            }
-        };
-        // Of what the body itself does not hide.
-        let cover = ((layer.cover - hidden) / (1.0 - hidden).max(1e-6)).clamp(0.0, 1.0);
-        if layer.from_outside {
-            self.near.push((layer.object, layer.cover));
-        }
-        let visible = self.left * cover;
-        self.left -= visible;
-        visible
-    }
-
-    /// A surface was none.
-    fn give_back(&mut self, layer: &Layer, visible: f32) {
-        self.left += visible;
-        if layer.from_outside {
-            self.near.pop();
-        }
-    }
+    pub(crate) leaves: Option<Leaves>,
 }
 
 /// What becomes of lamps that a ray meets.
 #[derive(Clone, Copy, Debug)]
-enum Met {
+pub(crate) enum Met {
     /// They are seen.
     Seen,
     /// They were asked already.
@@ -133,12 +87,12 @@ enum Met {
 }
 
 /// A scene in one pass, with what its tree is followed for.
-struct Traced<'a, const N: usize, M, P> {
-    scene: &'a Scene,
-    pass: &'a Pass<N, M>,
-    group_of: &'a [usize],
-    radiance: &'a mut [Lanes<N>],
-    probe: &'a mut P,
+pub(crate) struct Traced<'a, const N: usize, M, P> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) pass: &'a Pass<N, M>,
+    pub(crate) group_of: &'a [usize],
+    pub(crate) radiance: &'a mut [Lanes<N>],
+    pub(crate) probe: &'a mut P,
 }
 
 impl RayTree {
@@ -151,9 +105,9 @@ impl RayTree {
         };
         let fixed = match settings.light_centres {
             LightCentres::Fixed(count) => Some(grid(count)),
-            // Without chance there is nothing to jitter.
             // A cone sees all of a lamp from its middle.
             _ if settings.cones => Some(grid(1)),
+            // Without chance there is nothing to jitter.
             _ if !distributed => Some(ON_LAMP.to_vec()),
             _ => None,
         };
@@ -232,71 +186,8 @@ impl RayTree {
         self.arrive(traced, branch, (&hit, &point, distance), sample, left)
     }
 
-    /// Follows one cone (Amanatides 1984): every surface in it adds what it shows, weighed by the part of the cone that it covers and that
-    /// nearer ones leave free.
-    #[inline(never)]
-    fn follow_cone<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
-        &self,
-        cones: &ConeIndex,
-        traced: &mut Traced<'_, N, M, P>,
-        mut branch: Branch<N>,
-        sample: u64,
-        left: &mut Vec<Branch<N>>,
-    ) -> Primary {
-        let (scene, pass) = (traced.scene, traced.pass);
-        let cone = Cone {
-            origin: branch.ray.origin,
-            direction: branch.ray.direction,
-            radius: 0.5 * branch.cone[0],
-            spread: 0.5 * branch.cone[1],
-            length: f32::MAX,
-        };
-        traced.probe.closest(&branch.ray);
-        let mut primary = None;
-        let mut free = Free::default();
-        for layer in cones.meet(&cone, branch.leaves) {
-            let visible = free.take(&layer);
-            if visible < LEAST_COVER {
-                continue;
-            }
-            let material = scene.objects[layer.object as usize].material;
-            let priority = scene.priorities[material];
-            if branch.media.hides(material, priority) && pass.materials[material].bounds_media() {
-                // Where another body hides it, a boundary is passed; its part of the cone goes on.
-                free.give_back(&layer, visible);
-                let media = branch.media;
-                branch.media =
-                    if layer.from_outside { media.entered(material, priority) } else { media.left(material) };
-                continue;
-            }
-            let direction = (layer.point - branch.ray.origin).normalize_or(branch.ray.direction);
-            let ray = Ray { direction, ..branch.ray };
-            let hit = scene.geometry.hit_at(&ray, layer.object, layer.primitive, layer.point);
-            let point = scene.geometry.surface(&ray, &hit);
-            let mut part = branch;
-            part.ray = ray;
-            part.throughput *= visible;
-            let around = branch.media.innermost();
-            if let Some(kept) = pass.transmittance(around, layer.distance) {
-                part.throughput *= kept;
-            }
-            part.brightness *= visible * pass.brightness_after(around, layer.distance);
-            let seen = self.arrive(traced, part, (&hit, &point, layer.distance), sample, left);
-            primary.get_or_insert(seen);
-            if free.left < LEAST_COVER {
-                break;
-            }
-        }
-        if free.left >= LEAST_COVER {
-            branch.throughput *= free.left;
-            let seen = self.miss(traced, &branch);
-            primary.get_or_insert(seen);
-        }
-        primary.unwrap_or_default()
-    }
-
     /// Adds the surroundings where nothing else is met.
-    fn miss<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
+    pub(crate) fn miss<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
         &self,
         traced: &mut Traced<'_, N, M, P>,
         branch: &Branch<N>,
@@ -320,7 +211,7 @@ impl RayTree {
     }
 
     /// Adds what a surface sends along a branch that has met it at a distance, and leaves the rays that it asks for.
-    fn arrive<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
+    pub(crate) fn arrive<const N: usize, M: IlluminationModel<N> + Prepare, P: Probe>(
         &self,
         traced: &mut Traced<'_, N, M, P>,
         mut branch: Branch<N>,
@@ -504,52 +395,6 @@ impl RayTree {
         arriving_from(scene, lamp, point.position, time, places, &mut |light| {
             self.receive(traced, branch, (object, point), met, glossy, &light);
         });
-    }
-
-    /// By how much more a cone spreads that a sphere mirrors or bends, as its normal turns over the width of the cone.
-    fn bent<const N: usize>(
-        &self,
-        scene: &Scene,
-        branch: &Branch<N>,
-        hit: &Hit,
-        at: &Incidence<'_, N>,
-        transmitted: bool,
-    ) -> f32 {
-        let sphere = scene.geometry.sphere(hit.object as usize).filter(|_| self.cones.is_some());
-        let Some((_, radius)) = sphere else { return 0.0 };
-        let turn = if transmitted { (1.0 - at.near.mean / at.far.mean).abs() } else { 2.0 };
-        turn * branch.cone[0] / radius
-    }
-
-    /// The part of a lamp that a part of a surface sees: of the cone from one to the other what nothing stands in.
-    fn free_of<const N: usize>(
-        &self,
-        cones: &ConeIndex,
-        scene: &Scene,
-        branch: &Branch<N>,
-        object: u32,
-        point: &SurfacePoint,
-        light: &Arriving,
-    ) -> f32 {
-        let own = match &scene.lamps[light.lamp].form {
-            LampForm::Surface(surface) => Some(surface.object as u32),
-            _ => None,
-        };
-        // A lamp is asked at some places, and each stands for its part.
-        let places = self.fixed.as_ref().map_or(1, Vec::len) as f32;
-        let tangent = light.pdf.map_or(0.0, |pdf| (FRAC_1_PI / (pdf * places)).sqrt());
-        let radius = 0.5 * branch.cone[0];
-        let length = light.target.map_or(f32::MAX, |target| target.distance(point.position));
-        let spread = if length < f32::MAX { tangent - radius / length } else { tangent };
-        let cone = Cone { origin: point.position, direction: light.direction, radius, spread, length };
-        let outwards = light.direction.dot(point.geometric_normal) > 0.0;
-        let mut free = Free::default();
-        for layer in cones.meet(&cone, Some(Leaves { object, outwards })) {
-            if Some(layer.object) != own {
-                free.take(&layer);
-            }
-        }
-        free.left
     }
 
     /// Adds light that arrives, if nothing stands in its way.
