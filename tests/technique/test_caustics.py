@@ -151,6 +151,21 @@ def test_crop_threads_and_ranges_change_no_bit():
     np.testing.assert_array_equal(render(part, 8, caustics=True).xyz, whole[10:30, 4:20])
 
 
+def test_a_crop_changes_no_bit_where_roughness_is_drawn():
+    """Between two rungs of a textured roughness one is drawn, wherever light from a lamp meets it."""
+    rough = {
+        "kind": "coated",
+        "pigment": 0.5,
+        "roughness": {"pattern": "noise", "scale": 0.3, "black": 0.1, "white": 0.5},
+    }
+    floor = {"top": FLOOR | {"material": "rough", "translate": [0, 0.01, 0]}}
+    images = [
+        render(scene({"ball": BALL} | floor, {"key": POINT}, {"rough": rough}, **crop), 4, caustics=True).xyz
+        for crop in ({}, {"crop": [4, 10, 20, 30]})
+    ]
+    np.testing.assert_array_equal(images[1], images[0][10:30, 4:20])
+
+
 def test_layers_and_error_count_both_ends():
     lights = {"key": POINT, "more": POINT | {"position": [1, 3, 1]}}
     image = render(scene({"ball": BALL}, lights), 8, caustics=True, lamps=True)

@@ -145,9 +145,12 @@ impl LightTracer {
             let [u_lobe, u_survival, u_hero, u_pixel] = sequence.next4();
             let [u, v, u_lens @ ..] = sequence.next4();
             if gathered && met.model().is_continuous() {
+                let beyond = met.beyond;
                 let to_film = ToFilm { filter, u_lens, u_pixel };
-                let found =
-                    to_film.join(scene, pass, &light, &ray, (&hit, &point), met.beyond, &mut sequence, probe);
+                // Numbers of its own: what lies outside a crop must change nothing further on.
+                let mut own = sequence.branch(u64::from(segment));
+                let met = (&hit, &point);
+                let found = to_film.join(scene, pass, &light, &ray, met, beyond, &mut own, probe);
                 if let Some(found) = found {
                     splat(lamp, found);
                 }
