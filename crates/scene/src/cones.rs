@@ -7,6 +7,7 @@ use crate::geometry::Geometry;
 use glam::{Vec2, Vec3};
 use illuminant_optics::frame::Frame;
 use std::f32::consts::PI;
+use std::sync::OnceLock;
 
 /// Triangles of a leaf.
 const LEAF: usize = 4;
@@ -202,16 +203,27 @@ fn touches(cone: &Cone, low: Vec3, high: Vec3) -> bool {
     across <= widest + reach * (1.0 + cone.spread * cone.spread).sqrt()
 }
 
+/// The normals of the sides of a polygon with the area of the unit circle, which stands for it, and how far they lie from its middle.
+fn sides() -> &'static ([[f32; 2]; SIDES], f32) {
+    static KNOWN: OnceLock<([[f32; 2]; SIDES], f32)> = OnceLock::new();
+    KNOWN.get_or_init(|| {
+        let angle = 2.0 * PI / SIDES as f32;
+        let corner = (2.0 * PI / (SIDES as f32 * angle.sin())).sqrt();
+        let mut normals = [[0.0; 2]; SIDES];
+        for (i, normal) in normals.iter_mut().enumerate() {
+            let (sin, cos) = (angle * i as f32).sin_cos();
+            *normal = [cos, sin];
+        }
+        (normals, corner * (0.5 * angle).cos())
+    })
+}
+
 /// The area that a polygon has in common with the unit circle, and its middle.
 fn in_circle(polygon: &[Vec2]) -> (f32, Vec2) {
-    // A polygon with the area of the circle stands for it.
-    let angle = 2.0 * PI / SIDES as f32;
-    let corner = (2.0 * PI / (SIDES as f32 * angle.sin())).sqrt();
-    let apothem = corner * (0.5 * angle).cos();
+    let (sides, apothem) = sides();
     let mut points = polygon.to_vec();
     let mut cut = Vec::with_capacity(points.len() + SIDES);
-    for side in 0..SIDES {
-        let (sin, cos) = (angle * side as f32).sin_cos();
+    for [cos, sin] in sides {
         let outside = |p: Vec2| p.x * cos + p.y * sin - apothem;
         cut.clear();
         for (i, &p) in points.iter().enumerate() {

@@ -3,6 +3,7 @@
 use crate::geometry::Geometry;
 use crate::lamp::{Lamp, LampForm};
 use crate::surface::Ray;
+use crate::surface_lamp::cone;
 use glam::Vec3;
 use illuminant_optics::frame::Frame;
 use illuminant_optics::hemisphere::{disc, sphere};
@@ -52,12 +53,8 @@ fn around(geometry: &Geometry, object: usize) -> (Vec3, f32) {
 
 /// The solid angle of a sphere from a point, sr; all of it from inside.
 fn solid_angle(from: Vec3, (center, radius): (Vec3, f32)) -> f32 {
-    let sin2 = radius * radius / from.distance_squared(center).max(f32::MIN_POSITIVE);
-    if sin2 >= 1.0 {
-        return 4.0 * PI;
-    }
-    // 1 − cos without cancellation far away.
-    TAU * sin2 / (1.0 + (1.0 - sin2).sqrt())
+    let distance2 = from.distance_squared(center);
+    if distance2 <= radius * radius { 4.0 * PI } else { TAU * cone(radius, distance2) }
 }
 
 impl Targets {

@@ -86,6 +86,7 @@ impl SummedArea {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texture::wrapped;
 
     /// The mean over a box by many points.
     fn by_points(
@@ -119,17 +120,7 @@ mod tests {
         for (low, high) in boxes {
             let (low, high) = (Vec2::from(low), Vec2::from(high));
             for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
-                let index = |i: i64, n: usize| {
-                    let n = n as i64;
-                    (match wrap {
-                        Wrap::Repeat => i.rem_euclid(n),
-                        Wrap::Clamp => i.clamp(0, n - 1),
-                        Wrap::Mirror => {
-                            let j = i.rem_euclid(2 * n);
-                            j.min(2 * n - 1 - j)
-                        }
-                    }) as usize
-                };
+                let index = |i: i64, n: usize| wrapped(i as f32, n, wrap);
                 let found = SummedArea::new(size, &texels, wrap).mean(low, high)[0];
                 let expected = by_points(size, &texels, index, low, high);
                 assert!((found - expected).abs() < 0.05, "{wrap:?} {low} {high}: {found} {expected}");

@@ -376,7 +376,7 @@ fn by_area(from: Vec3, target: Vec3, normal: Vec3, area: f32) -> Option<f32> {
 }
 
 /// 1 − cos of the half-angle of the cone around a sphere, without cancellation far away.
-fn cone(radius: f32, distance2: f32) -> f32 {
+pub(crate) fn cone(radius: f32, distance2: f32) -> f32 {
     let sin2 = radius * radius / distance2;
     sin2 / (1.0 + (1.0 - sin2).max(0.0).sqrt())
 }

@@ -122,7 +122,7 @@ impl Level {
 }
 
 /// The texel that stands for one with any number.
-fn wrapped(i: f32, count: usize, wrap: Wrap) -> usize {
+pub(crate) fn wrapped(i: f32, count: usize, wrap: Wrap) -> usize {
     let (i, n) = (i as i64, count as i64);
     (match wrap {
         Wrap::Repeat => i.rem_euclid(n),
