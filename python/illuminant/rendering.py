@@ -151,6 +151,7 @@ class Job:
 
     Args:
         scene: a `Scene`, or the path of a scene file.
+        solution: the core's, where the light between surfaces has been solved for already.
         options: as `render`.
 
     Attributes:
@@ -160,7 +161,9 @@ class Job:
         stopped: whether `progress` ended it by returning False.
     """
 
-    def __init__(self, scene: Scene | str | os.PathLike[str], **options: Any) -> None:
+    def __init__(
+        self, scene: Scene | str | os.PathLike[str], *, solution: Any = None, **options: Any
+    ) -> None:
         self.scene, self.source = _scene(scene)
         defaults = self.scene.render_defaults
         self.settings = resolve(defaults, **options)
@@ -182,7 +185,7 @@ class Job:
         try:
             self.core_scene = self.scene.core(self.settings.threads)
             refuse(self.scene, words=())
-            self.core_render = core().Render(self.core_scene, self.settings.to_core())
+            self.core_render = core().Render(self.core_scene, self.settings.to_core(), solution)
         except Error:
             raise
         except ValueError as error:
@@ -438,6 +441,13 @@ def render(
     antialiasing: str | None = None,
     infinite: str | Sequence[str] | None = None,
     subdivide: float | None = None,
+    elements: int | None = None,
+    patches: int | None = None,
+    adaptive: float | None = None,
+    form_factors: str | None = None,
+    solver: str | None = None,
+    light_samples: int | None = None,
+    gather: str | None = None,
     progress: OnProgress | None = None,
     on_partial: Callable[[Image], object] | None = None,
 ) -> Image:
@@ -479,6 +489,14 @@ def render(
             polygon shaded once in a pixel, so that one sample does.
         infinite: what they hold at infinity: `eye`, `lights` or both; default neither.
         subdivide: area in pixels above which they subdivide polygons; default never.
+        elements: about how many elements `radiosity` cuts surfaces into; default 6000.
+        patches: about how many patches these make, which send light on; default one for each element.
+        adaptive: fraction by which direct light may differ about an element before it is cut again; default never.
+        form_factors: how they are found; default `rays:1024`, or `hemicube:N`, `scanline:N`, `area:N`.
+        solver: default `bicgstab`, or `gauss-seidel`, `gauss`, `progressive`.
+        light_samples: at how many places of an element each lamp is asked; default 64.
+        gather: what a pixel makes of the solution; default `none`, which shows it, or `direct`, which asks lamps again, or
+            `full`, which looks around from every pixel (final gather).
         progress: called about ten times a second with a `Progress`; returning False ends the render with what
             is done.
         on_partial: called after each range with the image so far.
@@ -525,6 +543,13 @@ def render(
         antialiasing=antialiasing,
         infinite=infinite,
         subdivide=subdivide,
+        elements=elements,
+        patches=patches,
+        adaptive=adaptive,
+        form_factors=form_factors,
+        solver=solver,
+        light_samples=light_samples,
+        gather=gather,
     )
     _log_warnings(job)
     for _ in job.passes(progress):

@@ -210,6 +210,35 @@ class Render(Table):
     subdivide: Annotated[float, Field(ge=1)] | None = key(
         "area in pixels above which scanline techniques subdivide polygons", "4.0", None
     )
+    elements: Annotated[int, Field(ge=1, le=4_000_000)] | None = key(
+        "about how many elements `radiosity` cuts surfaces into", "20000", None
+    )
+    patches: Annotated[int, Field(ge=1, le=4_000_000)] | None = key(
+        "about how many patches these make, which send light on; default one for each element", "2000", None
+    )
+    adaptive: Annotated[float, Field(gt=0, le=10)] | None = key(
+        "fraction by which direct light may differ about an element before it is cut again; default never",
+        "0.2",
+        None,
+    )
+    form_factors: Annotated[str, Field(pattern=r"^(rays|hemicube|scanline|area)(:\d{1,7})?$")] | None = key(
+        "how form factors are found: so many rays, a hemi-cube of so many cells along an edge with rays or scanlines, or "
+        "Lambert's formula at so many places",
+        '"rays:1024"',
+        None,
+    )
+    solver: Literal["bicgstab", "gauss-seidel", "gauss", "progressive"] | None = key(
+        "how radiosity is solved", '"bicgstab"', None
+    )
+    light_samples: Annotated[int, Field(ge=1, le=65536)] | None = key(
+        "at how many places of an element each lamp is asked", "64", None
+    )
+    gather: Literal["none", "direct", "full"] | None = key(
+        "what a pixel makes of the solution of `radiosity`: it is shown, or lamps are asked again, or a path looks around "
+        "(final gather)",
+        '"none"',
+        None,
+    )
     exposure: Positive | None = key("factor from luminance in cd/m² to the display's 0 to 1", "0.01", None)
     filter: Filter | None = key("reconstruction filter", '{ kind = "gaussian", radius = 1.5 }', None)
 

@@ -27,6 +27,7 @@ __all__ = [
     "Settings",
     "duration",
     "filter_of",
+    "form_factors_of",
     "fraction",
     "pixel",
     "resolve",
@@ -42,6 +43,14 @@ SCANLINE = ("constant", "gouraud", "phong")
 
 RAY_TREES = ("raytrace", "distributed")
 """The techniques that follow trees of rays."""
+
+SOLVED = ("radiosity",)
+"""The techniques that solve for the light between surfaces first."""
+
+SOLVERS = ("bicgstab", "gauss-seidel", "gauss", "progressive")
+GATHERS = ("none", "direct", "full")
+FORM_FACTORS = {"rays": 1024, "hemicube": 64, "scanline": 64, "area": 16}
+"""How form factors are found, with the number that each has if none is stated."""
 
 INTERPOLATIONS = ("object", "screen")
 SHADINGS = ("full", "duff", "bishop-weimer")
@@ -97,6 +106,13 @@ class Settings:
         antialiasing: how they smooth edges: `supersampling` or `coverage`.
         infinite: what they hold at infinity: `eye`, `lights`, both or nothing.
         subdivide: area in pixels above which they subdivide polygons; None leaves them whole.
+        elements: about how many elements radiosity cuts surfaces into.
+        patches: about how many patches these make, which send light on; None is one for each element.
+        adaptive: fraction by which direct light may differ about an element before it is cut again; None never is.
+        form_factors: how they are found: `rays:N`, `hemicube:N`, `scanline:N` or `area:N`.
+        solver: `bicgstab`, `gauss-seidel`, `gauss` or `progressive`.
+        light_samples: at how many places of an element each lamp is asked.
+        gather: what a pixel makes of the solution: `none` shows it, `direct` asks lamps again, `full` looks around.
     """
 
     technique: str = "path"
@@ -125,6 +141,13 @@ class Settings:
     antialiasing: str = "supersampling"
     infinite: tuple[str, ...] = ()
     subdivide: float | None = None
+    elements: int = 6000
+    patches: int | None = None
+    adaptive: float | None = None
+    form_factors: str = "rays:1024"
+    solver: str = "bicgstab"
+    light_samples: int = 64
+    gather: str = "none"
 
     @property
     def replicates(self) -> int:
@@ -163,6 +186,15 @@ class Settings:
                 "antialiasing": self.antialiasing,
                 "infinite": {name: name in self.infinite for name in INFINITE},
                 "subdivide": self.subdivide,
+                "radiosity": {
+                    "elements": self.elements,
+                    "patches": self.patches,
+                    "adaptive": self.adaptive,
+                    "form_factors": self.form_factors,
+                    "solver": self.solver,
+                    "light_samples": self.light_samples,
+                    "gather": self.gather,
+                },
             }
         )
 
@@ -182,6 +214,18 @@ class Settings:
             **({"caustics": True} if self.caustics else {}),
             **(self._scanline() if self.technique in SCANLINE else {}),
             **(self._ray_trees() if self.technique in RAY_TREES else {}),
+            **(self._solved() if self.technique in SOLVED else {}),
+        }
+
+    def _solved(self) -> dict[str, Any]:
+        return {
+            "elements": self.elements,
+            **({} if self.patches is None else {"patches": self.patches}),
+            **({} if self.adaptive is None else {"adaptive": self.adaptive}),
+            "form_factors": self.form_factors,
+            "solver": self.solver,
+            "light_samples": self.light_samples,
+            "gather": self.gather,
         }
 
     def _ray_trees(self) -> dict[str, Any]:
@@ -243,6 +287,8 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         ("shading", SHADINGS),
         ("antialiasing", ANTIALIASINGS),
         ("sampler", SAMPLERS),
+        ("solver", SOLVERS),
+        ("gather", GATHERS),
     ):
         if chosen.get(name, known[0]) not in known:
             *others, last = known
@@ -257,6 +303,14 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         raise UsageError(
             f"--light-centres {chosen['light_centres']}: expected jittered, random, or fixed with their number, such "
             "as fixed:4."
+        )
+    if "form_factors" in chosen:
+        chosen["form_factors"] = form_factors_of(chosen["form_factors"])
+    if "adaptive" in chosen and not (
+        isinstance(chosen["adaptive"], (int, float)) and 0 < chosen["adaptive"] <= 10
+    ):
+        raise UsageError(
+            f"--adaptive {chosen['adaptive']}: expected a fraction above 0 and up to 10, such as 0.2."
         )
     if "shadows" in chosen:
         chosen["shadows"] = shadows_of(chosen["shadows"])
@@ -279,6 +333,9 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         ("depth", 1, 2**16 - 1),
         ("seed", 0, 2**63 - 1),
         ("threads", 0, 4096),
+        ("elements", 1, 4_000_000),
+        ("patches", 1, 4_000_000),
+        ("light_samples", 1, 65536),
     ):
         if chosen.get(name) is not None:
             chosen[name] = _whole(name, chosen[name], least, most)
@@ -291,6 +348,7 @@ def _whole(name: str, value: Any, least: int, most: int) -> int:
     except (TypeError, ValueError, OverflowError):
         number = least - 1
     if isinstance(value, (bool, str)) or number != value or not least <= number <= most:
+        name = name.replace("_", "-")
         raise UsageError(f"--{name} {value}: expected a whole number from {least} to {most}.")
     return number
 
@@ -423,6 +481,30 @@ def shadows_of(value: str) -> str:
             "maps:1024."
         )
     return f"maps:{int(size)}"
+
+
+def form_factors_of(value: str) -> str:
+    """How form factors are found, complete with its number.
+
+    Raises:
+        UsageError: there is no such way, or the number cannot be.
+
+    Example:
+        >>> form_factors_of("rays"), form_factors_of("hemicube:100")
+        ('rays:1024', 'hemicube:100')
+    """
+    kind, _, text = str(value).partition(":")
+    number = text or str(FORM_FACTORS.get(kind, ""))
+    least, most = {"rays": (1, 2**20), "area": (1, 2**16)}.get(kind, (2, 2048))
+    known = kind in FORM_FACTORS and re.fullmatch(r"\d{1,7}", number) is not None
+    if not known or not least <= int(number) <= most:
+        raise UsageError(
+            f"--form-factors {value}: expected rays, hemicube, scanline or area, with a number if you like, such as "
+            "rays:1024 or hemicube:64."
+        )
+    if kind in ("hemicube", "scanline") and int(number) % 2:
+        raise UsageError(f"--form-factors {value}: a hemi-cube has an even number of cells along an edge.")
+    return f"{kind}:{int(number)}"
 
 
 def _names(option: str, value: str | Sequence[str], known: tuple[str, ...]) -> tuple[str, ...]:

@@ -8,6 +8,7 @@ mod color;
 mod colorimetry;
 mod display;
 mod optics;
+mod radiosity;
 mod sampling;
 mod scene;
 mod spectrum;
@@ -30,6 +31,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     sampling::register(m)?;
     scene::register(m)?;
     technique::register(m)?;
+    radiosity::register(m)?;
     verify::register(m)?;
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! `technique`: renders.
 
+use crate::radiosity::PySolution;
 use crate::scene::PyScene;
 use illuminant_illumination::Illumination;
 use illuminant_technique::pairs::{Pair, pair};
@@ -23,7 +24,7 @@ pub(crate) fn settings(json: &str) -> PyResult<Settings> {
         .map_err(|e| PyValueError::new_err(format!("{}: {}", e.path(), e.inner())))
 }
 
-fn shaped<T>(result: Result<T, numpy::ndarray::ShapeError>) -> PyResult<T> {
+pub(crate) fn shaped<T>(result: Result<T, numpy::ndarray::ShapeError>) -> PyResult<T> {
     result.map_err(|e| PyMemoryError::new_err(e.to_string()))
 }
 
@@ -42,10 +43,12 @@ fn vertex<'py>(py: Python<'py>, render: &Render, vertex: &Vertex) -> PyResult<Bo
 #[pymethods]
 impl PyRender {
     #[new]
-    fn new(py: Python<'_>, scene: &PyScene, settings: &str) -> PyResult<Self> {
+    #[pyo3(signature = (scene, settings, solution=None))]
+    fn new(py: Python<'_>, scene: &PyScene, settings: &str, solution: Option<&PySolution>) -> PyResult<Self> {
         let settings = self::settings(settings)?;
         let scene = Arc::clone(&scene.0);
-        let render = py.detach(|| Render::new(scene, settings));
+        let solution = solution.map(|solution| Arc::clone(&solution.0));
+        let render = py.detach(|| Render::of(scene, settings, solution));
         Ok(Self(render.map_err(|e: RenderError| PyValueError::new_err(e.to_string()))?))
     }
 
@@ -120,6 +123,11 @@ impl PyRender {
         let names: Vec<_> = found.materials.iter().map(|&m| scene.materials[m].name.clone()).collect();
         dict.set_item("material", (!names.is_empty()).then(|| names.join(" × ")))?;
         Ok(dict)
+    }
+
+    /// The light between surfaces, if the technique has solved for it.
+    fn solution(&self) -> Option<PySolution> {
+        self.0.solution().map(|solution| PySolution(Arc::clone(solution)))
     }
 
     /// Sentences on what the user should know before rendering.

@@ -2,6 +2,7 @@
 
 use crate::participating::MediumLanes;
 use crate::passes::Light;
+use crate::radiosity::Field;
 use crate::sequence::Sequence;
 use crate::skins::{Mixture, SkinLanes};
 use crate::wavelength::Wavelength;
@@ -49,6 +50,8 @@ pub struct Pass<const N: usize, M> {
     pub(crate) skins: Vec<Option<SkinLanes<N, M>>>,
     /// The radiance that stands for all light that is not followed, of each group of lamps; empty where all is followed.
     pub ambient: Vec<Lanes<N>>,
+    /// The solution of radiosity, if there is one.
+    pub(crate) field: Option<Field<N>>,
     /// What is in the air, if anything.
     pub(crate) medium: Option<MediumLanes<N>>,
     /// The spectra of the lamps.
@@ -140,6 +143,7 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
                 })
                 .collect(),
             ambient: Vec::new(),
+            field: None,
             medium: scene.medium.as_ref().map(|m| MediumLanes::new(m, basis, samples.clone(), range)),
             emission: emission.collect(),
             position: lanes(&position),

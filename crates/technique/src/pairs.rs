@@ -66,6 +66,16 @@ pub fn pair(technique: Technique, illumination: Illumination) -> Pair {
         (T::Phong, I::Whitted | I::Hall) => {
             Pair::Sensible("the mirror direction is looked up in the surroundings: reflection mapping")
         }
+        (T::Radiosity, I::General) => Pair::Sensible(
+            "each surface is a diffuser of the same reflectance, and all light between them is solved for",
+        ),
+        (T::Radiosity, I::Bouknight) => {
+            Pair::Warned("what is not diffuse is lost: metal and glass return less light than they receive")
+        }
+        (T::Radiosity, _) => Pair::Refused(
+            "the model can return more light than it receives, and what surfaces send each other again and again would \
+             grow; use general or bouknight, or path, which warns",
+        ),
         (T::Constant, _) => Pair::Sensible("evaluated once for each polygon"),
         (T::Gouraud, _) => Pair::Sensible("evaluated at corners; the light between them is interpolated"),
         (T::Phong, _) => Pair::Sensible("evaluated at every pixel, with interpolated normals"),

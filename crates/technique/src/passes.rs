@@ -12,6 +12,7 @@ use crate::haze::Haze;
 use crate::lanes::Pass;
 use crate::light_tracing::{LightTracer, gathering};
 use crate::path::{Counts, PathTracer, Primary, Probe, Query, Recorder, Vertex};
+use crate::radiosity::{Field, Gather, RadiositySolution, View};
 use crate::ray_tree::RayTree;
 use crate::render::RenderError;
 use crate::sampler::Numbers;
@@ -121,10 +122,22 @@ struct Passes<const N: usize, M> {
 enum Tracer {
     Paths(PathTracer),
     Trees(RayTree),
+    Solution(View),
+}
+
+/// What images are made by.
+#[derive(Clone, Copy)]
+pub(crate) struct How<'a> {
+    pub technique: Technique,
+    pub illumination: Illumination,
+    pub settings: &'a Settings,
+    pub light: Light<'a>,
+    /// The light between surfaces, where it has been solved for.
+    pub solution: Option<&'a RadiositySolution>,
 }
 
 /// The passes of a basis in bundles of N lanes.
-fn passes_of<const N: usize, M: Prepare>(
+pub(crate) fn passes_of<const N: usize, M: Prepare>(
     scene: &Scene,
     illumination: Illumination,
     basis: &dyn Basis,
@@ -144,16 +157,19 @@ fn passes_of<const N: usize, M: Prepare>(
 impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
     fn new(
         scene: &Scene,
-        illumination: Illumination,
+        how: How<'_>,
         basis: &dyn Basis,
         companions: Option<&[Wavelength]>,
-        (technique, settings): (Technique, &Settings),
         (groups, group_of): (&[usize], &[usize]),
-        light: Light<'_>,
     ) -> Self {
+        let How { technique, illumination, settings, light, solution } = how;
         let depth = settings.depth.unwrap_or(u32::MAX);
+        let gather = settings.radiosity.gather;
         let mut tracer = match RayTree::new(scene, settings, technique) {
             Some(tree) => Tracer::Trees(tree),
+            None if technique == Technique::Radiosity && gather != Gather::Full => {
+                Tracer::Solution(View::new(gather))
+            }
             None => Tracer::Paths(PathTracer { depth, gathered: None }),
         };
         let passes = |basis: &dyn Basis, companion| {
@@ -161,6 +177,11 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
             if let Tracer::Trees(_) = tracer {
                 let ambient = |pass: &Pass<N, M>| ambient(scene, pass, group_of, settings.ambient as f32);
                 all.iter_mut().for_each(|pass| pass.ambient = ambient(pass));
+            }
+            if let Some(solution) = solution {
+                for pass in &mut all {
+                    pass.field = Some(Field::new(solution, scene, pass, group_of, settings));
+                }
             }
             all
         };
@@ -231,6 +252,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
                 Tracer::Trees(trees) => {
                     trees.trace(scene, pass, group_of, ray, index, sequence, radiance, probe)
                 }
+                Tracer::Solution(view) => view.trace(scene, pass, group_of, ray, sequence, radiance, probe),
             };
             each(pass, radiance, probe);
         }
@@ -454,59 +476,50 @@ fn same(a: &ToXyz, b: &ToXyz) -> bool {
 /// Renders what was asked for in bundles of N lanes.
 fn of_lanes<const N: usize>(
     scene: &Scene,
-    pair: (Technique, Illumination),
-    settings: &Settings,
+    how: How<'_>,
     basis: &dyn Basis,
     companions: Option<&[Wavelength]>,
     groups: (&[usize], &[usize]),
-    light: Light<'_>,
 ) -> Box<dyn TileRenderer> {
     fn of_model<const N: usize, M: IlluminationModel<N> + Prepare + 'static>(
         scene: &Scene,
-        (technique, illumination): (Technique, Illumination),
-        settings: &Settings,
+        how: How<'_>,
         basis: &dyn Basis,
         companions: Option<&[Wavelength]>,
         (groups, group_of): (&[usize], &[usize]),
-        light: Light<'_>,
     ) -> Box<dyn TileRenderer> {
-        if technique.is_scanline() {
-            let passes = passes_of::<N, M>(scene, illumination, basis, None, groups, light);
-            return Box::new(Scanline::new(scene, settings, technique, group_of, passes));
+        if how.technique.is_scanline() {
+            let passes = passes_of::<N, M>(scene, how.illumination, basis, None, groups, how.light);
+            return Box::new(Scanline::new(scene, how.settings, how.technique, group_of, passes));
         }
-        let (how, groups) = ((technique, settings), (groups, group_of));
-        Box::new(Passes::<N, M>::new(scene, illumination, basis, companions, how, groups, light))
+        Box::new(Passes::<N, M>::new(scene, how, basis, companions, (groups, group_of)))
     }
-    match pair.1 {
-        Illumination::General => {
-            of_model::<N, General<N>>(scene, pair, settings, basis, companions, groups, light)
-        }
-        _ => of_model::<N, Historic<N>>(scene, pair, settings, basis, companions, groups, light),
+    match how.illumination {
+        Illumination::General => of_model::<N, General<N>>(scene, how, basis, companions, groups),
+        _ => of_model::<N, Historic<N>>(scene, how, basis, companions, groups),
     }
 }
 
 /// The one place where lane-generic code is instantiated.
 pub(crate) fn renderer(
     scene: &Scene,
-    pair: (Technique, Illumination),
-    settings: &Settings,
+    how: How<'_>,
     basis: &dyn Basis,
     groups: (&[usize], &[usize]),
-    light: Light<'_>,
 ) -> Result<Box<dyn TileRenderer>, RenderError> {
     // Only what bends light disperses it: general alone, along paths.
-    let bends = pair == (Technique::Path, Illumination::General);
+    let bends = (how.technique, how.illumination) == (Technique::Path, Illumination::General);
     let companions = wavelengths(scene, basis).filter(|_| bends);
     let companions = companions.as_deref();
     let samples = basis.len() + usize::from(companions.is_some());
     match lanes_for(samples).unwrap_or(32) {
-        8 => Ok(of_lanes::<8>(scene, pair, settings, basis, companions, groups, light)),
+        8 => Ok(of_lanes::<8>(scene, how, basis, companions, groups)),
         #[cfg(not(feature = "only-8-lanes"))]
-        4 => Ok(of_lanes::<4>(scene, pair, settings, basis, companions, groups, light)),
+        4 => Ok(of_lanes::<4>(scene, how, basis, companions, groups)),
         #[cfg(not(feature = "only-8-lanes"))]
-        16 => Ok(of_lanes::<16>(scene, pair, settings, basis, companions, groups, light)),
+        16 => Ok(of_lanes::<16>(scene, how, basis, companions, groups)),
         #[cfg(not(feature = "only-8-lanes"))]
-        32 => Ok(of_lanes::<32>(scene, pair, settings, basis, companions, groups, light)),
+        32 => Ok(of_lanes::<32>(scene, how, basis, companions, groups)),
         other => Err(RenderError::Setting(format!("bundles of {other} lanes are not compiled in"))),
     }
 }

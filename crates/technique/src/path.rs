@@ -9,11 +9,13 @@ use crate::direct_light::way_to;
 use crate::interaction::{Interaction, next_surface};
 use crate::lanes::Pass;
 use crate::participating::{Draws, MediumLanes};
+use crate::radiosity;
 use crate::sequence::Sequence;
 use glam::Vec3;
-use illuminant_illumination::{IlluminationModel, Prepare};
+use illuminant_illumination::{IlluminationModel, Prepare, Surface};
 use illuminant_sampling::Lanes;
 use illuminant_scene::{Hit, Ray, Scene, SurfacePoint};
+use std::f32::consts::FRAC_1_PI;
 
 /// The part of a pixel that one path sees of a texture: many paths share a pixel.
 pub(crate) const OF_PIXEL: f32 = 0.5;
@@ -248,6 +250,7 @@ impl PathTracer {
                 primary.surface = Some((distance, hit.object, point.normal));
             }
             let goes_on = segment < self.depth
+                && !self.gather(scene, pass, &path, (&hit, &point, distance), &mut sequence, radiance)
                 && self.scatter(
                     scene,
                     pass,
@@ -274,6 +277,34 @@ impl PathTracer {
             }
         }
         primary
+    }
+
+    /// Takes what has been solved for where a path that looks around from a surface meets a diffuse one (final gather): whether it did.
+    #[inline(always)]
+    fn gather<const N: usize, M: IlluminationModel<N> + Prepare>(
+        &self,
+        scene: &Scene,
+        pass: &Pass<N, M>,
+        path: &State<N>,
+        (hit, point, distance): (&Hit, &SurfacePoint, f32),
+        sequence: &mut Sequence,
+        radiance: &mut [Lanes<N>],
+    ) -> bool {
+        let (Some(field), Some(_)) = (&pass.field, path.origin) else { return false };
+        let material = scene.objects[hit.object as usize].material;
+        // Nearer than the solution is detailed the path itself knows better.
+        if !matches!(scene.materials[material].surface, Surface::Diffuse { .. })
+            || distance < field.detail(hit, point.position)
+        {
+            return false;
+        }
+        let (reflectance, _) =
+            radiosity::seen(scene, pass, field, (&path.ray, hit, point), path.cone[0], sequence);
+        let brdf = path.light.throughput * reflectance * FRAC_1_PI;
+        let sides = (point.geometric_normal, path.ray.direction);
+        field.irradiance(hit, point.position, sides, |group, irradiance| {
+            radiance[path.light.bundle + group] += brdf * irradiance;
+        })
     }
 
     /// Asks a lamp, then draws the next direction; whether the path goes on.

@@ -4,14 +4,15 @@ use crate::film::{Film, TOO_LARGE, TileFilm};
 use crate::filter::FilterSampler;
 use crate::haze::Haze;
 use crate::pairs;
-use crate::passes::{Job, Light, Replay, TileCounts, TileRenderer, group_lamps, renderer};
+use crate::passes::{How, Job, Light, Replay, TileCounts, TileRenderer, group_lamps, renderer};
 use crate::path::Query;
+use crate::radiosity::{RadiositySolution, basis};
 use crate::sampler::Numbers;
 use crate::scanline::BAND;
-use crate::scene_products::{products, spectral_error};
+use crate::scene_products::spectral_error;
 use crate::settings::{Layer, LightCentres, Settings, Shadows, Technique};
 use illuminant_illumination::Illumination;
-use illuminant_sampling::{Basis, SamplingError, SpectralError, SpectralSampling};
+use illuminant_sampling::{Basis, SamplingError, SpectralError};
 use illuminant_scene::Scene;
 use illuminant_spectrum::{Curve, Observer};
 use rayon::prelude::*;
@@ -102,9 +103,10 @@ impl Progress {
 pub struct Render {
     job: Job,
     renderer: Box<dyn TileRenderer>,
-    basis: Box<dyn Basis>,
+    basis: Arc<dyn Basis>,
     film: Film,
     statistics: Statistics,
+    solution: Option<Arc<RadiositySolution>>,
     pool: rayon::ThreadPool,
 }
 
@@ -114,7 +116,18 @@ impl Render {
     /// # Errors
     /// [`RenderError`] when a setting is unknown or out of range, or the scene has no light.
     pub fn new(scene: Arc<Scene>, settings: Settings) -> Result<Self, RenderError> {
-        let sampling: SpectralSampling = settings.sampling.parse()?;
+        Self::of(scene, settings, None)
+    }
+
+    /// A render of a scene with light between its surfaces that has been solved for already.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of(
+        scene: Arc<Scene>,
+        settings: Settings,
+        solution: Option<Arc<RadiositySolution>>,
+    ) -> Result<Self, RenderError> {
         let technique: Technique = settings.technique.parse().map_err(RenderError::Setting)?;
         let illumination: Illumination = settings.illumination.parse().map_err(RenderError::Setting)?;
         pairs::check(technique, illumination).map_err(RenderError::Setting)?;
@@ -171,16 +184,28 @@ impl Render {
             .num_threads(settings.threads)
             .build()
             .map_err(|e| RenderError::Setting(format!("no threads can be started: {e}")))?;
-        let basis = pool.install(|| sampling.basis(scene.range, &|| products(&scene, &settings)))?;
+        let basis: Arc<dyn Basis> = match &solution {
+            // What was solved for in some samples is seen in those.
+            Some(solution) => Arc::clone(&solution.basis),
+            None => pool.install(|| basis(&scene, &settings))?,
+        };
         let by_lamp = settings.layers.contains(&Layer::Lamps);
         let (groups, group_of) = group_lamps(&*basis, scene.lamps.len(), by_lamp);
         let names: Vec<String> = scene.lamps.iter().map(|lamp| lamp.name.clone()).collect();
         // A scanline keeps its width, so that edges and spans go on.
         let tile = if technique.is_scanline() { [u32::MAX, BAND] } else { [settings.tile.clamp(1, 4096); 2] };
         let film = Film::with_tiles(scene.camera.crop, tile, &settings, &names, basis.len());
-        let pair = (technique, illumination);
-        let renderer =
-            pool.install(|| renderer(&scene, pair, &settings, &*basis, (&groups, &group_of), Light::Lamps))?;
+        let solution = match (technique, solution) {
+            (Technique::Radiosity, None) => {
+                let solved = pool.install(|| RadiositySolution::new(&scene, &settings, Arc::clone(&basis)));
+                Some(Arc::new(solved.map_err(RenderError::Setting)?))
+            }
+            (_, given) => given,
+        };
+        let (settings_of, solved) = (&settings, solution.as_deref());
+        let how =
+            How { technique, illumination, settings: settings_of, light: Light::Lamps, solution: solved };
+        let renderer = pool.install(|| renderer(&scene, how, &*basis, (&groups, &group_of)))?;
         let white = Observer::cie_1931_2deg().xyz(&Curve::constant(1.0), scene.range);
         let albedo = scene.materials.iter().map(|material| {
             let reflectance = material.representative_reflectance(scene.range);
@@ -199,7 +224,7 @@ impl Render {
             scene,
             settings,
         };
-        Ok(Self { job, renderer, basis, film, statistics: Statistics::default(), pool })
+        Ok(Self { job, renderer, basis, film, statistics: Statistics::default(), solution, pool })
     }
 
     /// Renders `samples` of every pixel, without those that it holds already; false when it was cancelled. Tiles are taken
@@ -355,6 +380,12 @@ impl Render {
             std::hint::black_box(met);
             (count, start.elapsed())
         })
+    }
+
+    /// The light between surfaces, where it has been solved for.
+    #[must_use]
+    pub fn solution(&self) -> Option<&Arc<RadiositySolution>> {
+        self.solution.as_ref()
     }
 
     /// The film.

@@ -6,7 +6,7 @@
 //! sampling is fitted on one set of paths and judged on another.
 
 use crate::filter::FilterSampler;
-use crate::passes::{Followed, Job, Light, TileRenderer, group_lamps, renderer};
+use crate::passes::{Followed, How, Job, Light, TileRenderer, group_lamps, renderer};
 use crate::sampler::Numbers;
 use crate::settings::{Layer, Settings, Technique};
 use illuminant_color::{RgbSystem, Triple};
@@ -111,14 +111,18 @@ fn follow(
 }
 
 /// The model as paths see it. What a scanline technique shows are paths of two segments.
-fn along_paths(settings: &Settings) -> Option<((Technique, Illumination), Settings)> {
+fn along_paths(settings: &Settings) -> Option<(Illumination, Settings)> {
     let technique: Technique = settings.technique.parse().ok()?;
     let illumination = settings.illumination.parse().ok()?;
     let mut settings = Settings { caustics: false, ..settings.clone() };
     if technique.is_scanline() {
         settings.depth = Some(settings.depth.unwrap_or(2).min(2));
     }
-    Some(((Technique::Path, illumination), settings))
+    Some((illumination, settings))
+}
+
+fn paths<'a>(illumination: Illumination, settings: &'a Settings, light: Light<'a>) -> How<'a> {
+    How { technique: Technique::Path, illumination, settings, light, solution: None }
 }
 
 /// What the pixels of a set show at every nm, for the kinds of lamps in `known`.
@@ -134,8 +138,9 @@ fn probe(scene: &Arc<Scene>, settings: &Settings, known: &Products, set: Set) ->
         .map(|l| known.kind(l).map_or(0.0, |kind| (luminance(l) / luminance(kind)) as f32))
         .collect();
     let group_of: Vec<usize> = lamps.map(|l| kind_of(l).unwrap_or(0)).collect();
-    let (pair, probing) = along_paths(settings)?;
-    let renderer = renderer(scene, pair, &probing, &basis, (&kinds, &group_of), Light::Flat(&light)).ok()?;
+    let (illumination, probing) = along_paths(settings)?;
+    let how = paths(illumination, &probing, Light::Flat(&light));
+    let renderer = renderer(scene, how, &basis, (&kinds, &group_of)).ok()?;
     let job = job(scene, settings, group_of);
     let range = known.range;
     let first = (range.min_nm - scene.range.min_nm) as usize;
@@ -234,8 +239,9 @@ fn comparisons(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Op
     let probes = probe(scene, settings, &known, Set::Judging)?;
     let white = white(&probes)?;
     let (groups, group_of) = group_lamps(basis, scene.lamps.len(), false);
-    let (pair, probing) = along_paths(settings)?;
-    let renderer = renderer(scene, pair, &probing, basis, (&groups, &group_of), Light::Lamps).ok()?;
+    let (illumination, probing) = along_paths(settings)?;
+    let how = paths(illumination, &probing, Light::Lamps);
+    let renderer = renderer(scene, how, basis, (&groups, &group_of)).ok()?;
     let job = job(scene, settings, group_of);
     let maps: Vec<_> = groups.iter().map(|&lamp| basis.to_xyz(lamp)).collect();
     let of = |probe: &Probe| {

@@ -1,5 +1,6 @@
 //! What a render is told beside its scene.
 
+use crate::radiosity::RadiositySettings;
 use crate::{Filter, Sampler};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -21,12 +22,21 @@ pub enum Technique {
     /// Path tracing (Kajiya 1986).
     #[default]
     Path,
+    /// Light between diffuse surfaces, solved for once (Goral et al. 1984).
+    Radiosity,
 }
 
 impl Technique {
     /// All techniques.
-    pub const ALL: &'static [Self] =
-        &[Self::Constant, Self::Gouraud, Self::Phong, Self::Raytrace, Self::Distributed, Self::Path];
+    pub const ALL: &'static [Self] = &[
+        Self::Constant,
+        Self::Gouraud,
+        Self::Phong,
+        Self::Raytrace,
+        Self::Distributed,
+        Self::Path,
+        Self::Radiosity,
+    ];
 
     /// Whether images are made scanline by scanline, of light straight from lamps alone.
     #[must_use]
@@ -44,6 +54,7 @@ impl fmt::Display for Technique {
             Self::Raytrace => "raytrace",
             Self::Distributed => "distributed",
             Self::Path => "path",
+            Self::Radiosity => "radiosity",
         })
     }
 }
@@ -168,7 +179,7 @@ pub enum Layer {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
-    /// `constant`, `gouraud`, `phong`, `raytrace`, `distributed`, `path`.
+    /// `constant`, `gouraud`, `phong`, `raytrace`, `distributed`, `path`, `radiosity`.
     pub technique: String,
     /// `bouknight`, `phong`, … `general`.
     pub illumination: String,
@@ -215,6 +226,8 @@ pub struct Settings {
     pub infinite: Infinite,
     /// The area on the screen, in pixels, above which they subdivide polygons; none leaves them whole.
     pub subdivide: Option<f64>,
+    /// What radiosity is told.
+    pub radiosity: RadiositySettings,
 }
 
 impl Default for Settings {
@@ -243,6 +256,7 @@ impl Default for Settings {
             antialiasing: Antialiasing::default(),
             infinite: Infinite::default(),
             subdivide: None,
+            radiosity: RadiositySettings::default(),
         }
     }
 }

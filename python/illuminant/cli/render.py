@@ -54,7 +54,8 @@ def render(
         typer.Option(
             "--technique",
             metavar="NAME",
-            help="How light is followed: constant, gouraud, phong (scanline), raytrace, distributed, path (path).",
+            help="How light is followed: constant, gouraud, phong (scanline), raytrace, distributed, path, radiosity "
+            "(path).",
         ),
     ] = None,
     illumination: Annotated[
@@ -158,6 +159,56 @@ def render(
             "--subdivide",
             metavar="AREA",
             help="Pixels above which scanline techniques subdivide a polygon (never).",
+        ),
+    ] = None,
+    elements: Annotated[
+        int | None,
+        typer.Option(
+            "--elements", metavar="N", help="About how many elements radiosity cuts surfaces into (6000)."
+        ),
+    ] = None,
+    patches: Annotated[
+        int | None,
+        typer.Option(
+            "--patches", metavar="N", help="About how many patches these make, which send light on (as many)."
+        ),
+    ] = None,
+    adaptive: Annotated[
+        float | None,
+        typer.Option(
+            "--adaptive",
+            metavar="F",
+            help="Cut elements again about which direct light differs by more than this fraction (never).",
+        ),
+    ] = None,
+    form_factors: Annotated[
+        str | None,
+        typer.Option(
+            "--form-factors",
+            metavar="HOW",
+            help="How form factors are found: rays:N, hemicube:N, scanline:N, area:N (rays:1024).",
+        ),
+    ] = None,
+    solver: Annotated[
+        str | None,
+        typer.Option(
+            "--solver",
+            metavar="NAME",
+            help="How radiosity is solved: bicgstab, gauss-seidel, gauss, progressive (bicgstab).",
+        ),
+    ] = None,
+    light_samples: Annotated[
+        int | None,
+        typer.Option(
+            "--light-samples", metavar="N", help="At how many places of an element each lamp is asked (64)."
+        ),
+    ] = None,
+    gather: Annotated[
+        str | None,
+        typer.Option(
+            "--gather",
+            metavar="HOW",
+            help="What a pixel makes of radiosity: none shows it, direct asks lamps again, full looks around (none).",
         ),
     ] = None,
     sampling: Annotated[
@@ -292,6 +343,13 @@ def render(
         "antialiasing": antialiasing,
         "infinite": infinite,
         "subdivide": subdivide,
+        "elements": elements,
+        "patches": patches,
+        "adaptive": adaptive,
+        "form_factors": form_factors,
+        "solver": solver,
+        "light_samples": light_samples,
+        "gather": gather,
     }
     with _Stop() as stop:
         from illuminant.rendering import Job

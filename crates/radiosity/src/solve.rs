@@ -1,0 +1,413 @@
+//! Radiosity solvers: E = H + F P ρ E, the irradiance of sides under direct light H with form factors F (book eqs 4.27 and 4.31).
+//!
+//! P takes from sides to the patches that they make, by area. All lamps and spectral samples are columns of one right-hand side.
+
+use crate::elements::Elements;
+use crate::form_factors::FormFactors;
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+use std::fmt;
+use std::str::FromStr;
+use thiserror::Error;
+
+/// How the equations are solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Solver {
+    /// Elimination with partial pivoting (Goral et al. 1984).
+    Gauss,
+    /// Gauss and Seidel's iteration, each patch from the newest values of the others (Cohen and Greenberg 1985).
+    GaussSeidel,
+    /// Shooting from the patch that has most to send (Cohen et al. 1988), with the stored form factors.
+    Progressive,
+    /// The stabilised biconjugate gradient method (van der Vorst 1992).
+    #[default]
+    BiCgStab,
+}
+
+impl Solver {
+    /// All solvers.
+    pub const ALL: [Self; 4] = [Self::Gauss, Self::GaussSeidel, Self::Progressive, Self::BiCgStab];
+    /// The most patches that elimination is used for.
+    pub const MOST_ELIMINATED: usize = 4000;
+}
+
+impl fmt::Display for Solver {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Gauss => "gauss",
+            Self::GaussSeidel => "gauss-seidel",
+            Self::Progressive => "progressive",
+            Self::BiCgStab => "bicgstab",
+        })
+    }
+}
+
+impl FromStr for Solver {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        Self::ALL.into_iter().find(|solver| solver.to_string() == name).ok_or_else(|| {
+            format!("no solver {name:?}; known are {}", Self::ALL.map(|s| s.to_string()).join(", "))
+        })
+    }
+}
+
+/// Why equations are not solved.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum SolveError {
+    /// Elimination takes n³ steps.
+    #[error(
+        "elimination of {patches} patches would take too long: it is for {} at most; use bicgstab",
+        Solver::MOST_ELIMINATED
+    )]
+    TooLarge {
+        /// How many there are.
+        patches: usize,
+    },
+    /// Light would grow from reflection to reflection.
+    #[error(
+        "a surface would return more light than it receives: the reflectance of side {side} is {reflectance}"
+    )]
+    Creates {
+        /// The side.
+        side: usize,
+        /// Its reflectance.
+        reflectance: f32,
+    },
+    /// The iteration came to no end.
+    #[error("{solver} did not converge: after {steps} steps the residual was {residual:.1e}")]
+    Diverged {
+        /// Which.
+        solver: Solver,
+        /// Its steps.
+        steps: usize,
+        /// What was left.
+        residual: f64,
+    },
+}
+
+/// What is to be solved.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// The sides and patches.
+    pub elements: &'a Elements,
+    /// How they see each other.
+    pub factors: &'a FormFactors,
+    /// Of each side the reflectance in every sample, rows that follow each other.
+    pub reflectance: &'a [f32],
+    /// Of each side the irradiance straight from each lamp in every sample: rows of `lamps × samples`.
+    pub direct: &'a [f32],
+    /// Spectral samples.
+    pub samples: usize,
+    /// The relative residual at which iterations end.
+    pub tolerance: f64,
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// Of each side the irradiance of each lamp in every sample, direct light included.
+    pub irradiance: Vec<f32>,
+    /// The relative residual, or for shooting the part of all light that is still to be sent, after each step.
+    pub history: Vec<f64>,
+}
+
+impl<'a> Problem<'a> {
+    /// Columns of the right-hand side.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        self.direct.len() / self.elements.sides.len().max(1)
+    }
+
+    /// Solves for the irradiance of all sides.
+    ///
+    /// # Errors
+    /// [`SolveError`]: a reflectance is above 1, the patches are too many for elimination, or an iteration does not converge.
+    pub fn solve(&self, solver: Solver) -> Result<Solution, SolveError> {
+        if let Some(at) = self.reflectance.iter().position(|r| !(0.0..=1.0 + 1e-5).contains(r)) {
+            return Err(SolveError::Creates { side: at / self.samples, reflectance: self.reflectance[at] });
+        }
+        let sent = self.restricted(self.direct);
+        let (radiosity, history) = match solver {
+            Solver::Gauss => self.gauss(&sent)?,
+            Solver::GaussSeidel => self.gauss_seidel(&sent)?,
+            Solver::Progressive => self.progressive(&sent)?,
+            Solver::BiCgStab => self.bicgstab(&sent)?,
+        };
+        Ok(Solution { irradiance: self.gathered(&radiosity), history })
+    }
+
+    /// The irradiance of all sides under the radiosity of patches and direct light.
+    #[must_use]
+    pub fn gathered(&self, radiosity: &[f32]) -> Vec<f32> {
+        let columns = self.columns();
+        let mut irradiance = self.direct.to_vec();
+        irradiance
+            .par_chunks_mut(columns.max(1))
+            .enumerate()
+            .for_each(|(side, sum)| self.factors.rows.add_row(side, radiosity, sum));
+        irradiance
+    }
+
+    /// Adds what a side returns of its irradiance to its patch.
+    #[inline]
+    fn send(&self, side: u32, irradiance: &[f32], patch: &mut [f32], area: f64) {
+        let share = (self.elements.area(side) / area) as f32;
+        let reflectance = &self.reflectance[side as usize * self.samples..][..self.samples];
+        for (patch, irradiance) in patch.chunks_mut(self.samples).zip(irradiance.chunks(self.samples)) {
+            for ((b, e), r) in patch.iter_mut().zip(irradiance).zip(reflectance) {
+                *b += share * r * e;
+            }
+        }
+    }
+
+    /// The radiosity of patches that the irradiance of their sides makes.
+    #[must_use]
+    pub fn restricted(&self, irradiance: &[f32]) -> Vec<f32> {
+        let columns = self.columns();
+        let mut radiosity = vec![0f32; self.elements.patches.len() * columns];
+        radiosity.par_chunks_mut(columns.max(1)).enumerate().for_each(|(patch, b)| {
+            let area = self.elements.patch_area(patch as u32);
+            for &side in &self.elements.patches[patch] {
+                self.send(side, &irradiance[side as usize * columns..][..columns], b, area);
+            }
+        });
+        radiosity
+    }
+
+    /// What patches send of the light of other patches.
+    fn reflected(&self, radiosity: &[f32]) -> Vec<f32> {
+        let columns = self.columns();
+        let irradiance = self.factors.rows.times(radiosity, columns);
+        self.restricted(&irradiance)
+    }
+
+    fn residual_limit(&self, steps: usize, residual: f64, solver: Solver) -> Result<(), SolveError> {
+        const MOST: usize = 2000;
+        if steps >= MOST && residual > 10.0 * self.tolerance {
+            return Err(SolveError::Diverged { solver, steps, residual });
+        }
+        Ok(())
+    }
+
+    fn gauss(&self, sent: &[f32]) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
+        let patches = self.elements.patches.len();
+        if patches > Solver::MOST_ELIMINATED {
+            return Err(SolveError::TooLarge { patches });
+        }
+        let columns = self.columns();
+        let lamps = columns / self.samples;
+        let areas: Vec<f64> = (0..patches as u32).map(|p| self.elements.patch_area(p)).collect();
+        let solved: Vec<DMatrix<f64>> = (0..self.samples)
+            .into_par_iter()
+            .map(|sample| {
+                let mut matrix = DMatrix::<f64>::identity(patches, patches);
+                for (side, &patch) in self.elements.patch_of.iter().enumerate() {
+                    let share = self.elements.area(side as u32) / areas[patch as usize];
+                    let reflected = share * f64::from(self.reflectance[side * self.samples + sample]);
+                    let (of, values) = self.factors.rows.row(side);
+                    for (&column, &value) in of.iter().zip(values) {
+                        matrix[(patch as usize, column as usize)] -= reflected * f64::from(value);
+                    }
+                }
+                let right = DMatrix::from_fn(patches, lamps, |patch, lamp| {
+                    f64::from(sent[patch * columns + lamp * self.samples + sample])
+                });
+                // Strictly dominant by its diagonal wherever something is absorbed (book 4.4.2), so never singular.
+                matrix.lu().solve(&right).unwrap_or(right)
+            })
+            .collect();
+        let mut radiosity = vec![0f32; patches * columns];
+        for (sample, found) in solved.iter().enumerate() {
+            for patch in 0..patches {
+                for lamp in 0..lamps {
+                    radiosity[patch * columns + lamp * self.samples + sample] = found[(patch, lamp)] as f32;
+                }
+            }
+        }
+        Ok((radiosity, vec![0.0]))
+    }
+
+    fn gauss_seidel(&self, sent: &[f32]) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
+        let columns = self.columns();
+        let mut radiosity = sent.to_vec();
+        let mut history = Vec::new();
+        let (mut irradiance, mut new) = (vec![0f32; columns], vec![0f32; columns]);
+        loop {
+            let (mut changed, mut all) = (0.0f64, 0.0f64);
+            for (patch, sides) in self.elements.patches.iter().enumerate() {
+                let area = self.elements.patch_area(patch as u32);
+                new.fill(0.0);
+                for &side in sides {
+                    irradiance.copy_from_slice(&self.direct[side as usize * columns..][..columns]);
+                    self.factors.rows.add_row(side as usize, &radiosity, &mut irradiance);
+                    self.send(side, &irradiance, &mut new, area);
+                }
+                for (b, n) in radiosity[patch * columns..][..columns].iter_mut().zip(&new) {
+                    changed += area * f64::from((*n - *b).abs());
+                    all += area * f64::from(n.abs());
+                    *b = *n;
+                }
+            }
+            let residual = if all > 0.0 { changed / all } else { 0.0 };
+            history.push(residual);
+            self.residual_limit(history.len(), residual, Solver::GaussSeidel)?;
+            if residual <= self.tolerance || history.len() >= 2000 {
+                return Ok((radiosity, history));
+            }
+        }
+    }
+
+    /// The patch with most unshot light sends it to all sides that see it.
+    fn progressive(&self, sent: &[f32]) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
+        let (columns, patches) = (self.columns(), self.elements.patches.len());
+        let seen_by = self.factors.rows.transposed();
+        let areas: Vec<f64> = (0..patches as u32).map(|p| self.elements.patch_area(p)).collect();
+        let (mut radiosity, mut unshot) = (sent.to_vec(), sent.to_vec());
+        let power = |unshot: &[f32], patch: usize| {
+            areas[patch] * unshot[patch * columns..][..columns].iter().map(|v| f64::from(*v)).sum::<f64>()
+        };
+        let mut waiting: Vec<f64> = (0..patches).map(|p| power(&unshot, p)).collect();
+        let all: f64 = waiting.iter().sum();
+        let mut left = all;
+        let mut history = Vec::new();
+        let mut returned = vec![0f32; columns];
+        let most = 400 * patches.max(1);
+        while left > self.tolerance * all && history.len() < most {
+            let Some(shooter) = (0..patches).max_by(|&a, &b| waiting[a].total_cmp(&waiting[b])) else {
+                break;
+            };
+            let shot: Vec<f32> = unshot[shooter * columns..][..columns].to_vec();
+            unshot[shooter * columns..][..columns].fill(0.0);
+            left -= waiting[shooter];
+            waiting[shooter] = 0.0;
+            let (sides, factors) = seen_by.row(shooter);
+            for (&side, &factor) in sides.iter().zip(factors) {
+                let patch = self.elements.patch_of[side as usize] as usize;
+                returned.fill(0.0);
+                let arriving: Vec<f32> = shot.iter().map(|v| v * factor).collect();
+                self.send(side, &arriving, &mut returned, areas[patch]);
+                let before = waiting[patch];
+                for (i, r) in returned.iter().enumerate() {
+                    radiosity[patch * columns + i] += r;
+                    unshot[patch * columns + i] += r;
+                    waiting[patch] += areas[patch] * f64::from(*r);
+                }
+                left += waiting[patch] - before;
+            }
+            history.push(if all > 0.0 { left / all } else { 0.0 });
+        }
+        Ok((radiosity, history))
+    }
+
+    fn bicgstab(&self, sent: &[f32]) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
+        let columns = self.columns();
+        let apply = |x: &[f32]| {
+            let mut y = self.reflected(x);
+            y.par_iter_mut().zip(x).for_each(|(y, x)| *y = x - *y);
+            y
+        };
+        // One scalar product for each column.
+        let dot = |a: &[f32], b: &[f32]| {
+            let mut sums = vec![0f64; columns];
+            for (a, b) in a.chunks(columns).zip(b.chunks(columns)) {
+                for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+                    *sum += f64::from(*a) * f64::from(*b);
+                }
+            }
+            sums
+        };
+        let ratio = |a: &[f64], b: &[f64]| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| if *b == 0.0 { 0.0 } else { a / b }).collect()
+        };
+        let add = |x: &mut [f32], factor: &[f64], y: &[f32]| {
+            for (x, y) in x.chunks_mut(columns).zip(y.chunks(columns)) {
+                for ((x, f), y) in x.iter_mut().zip(factor).zip(y) {
+                    *x += *f as f32 * y;
+                }
+            }
+        };
+        let negative = |v: &[f64]| v.iter().map(|v| -v).collect::<Vec<_>>();
+        let norm = dot(sent, sent);
+        let relative = |r: &[f32]| {
+            let left = dot(r, r);
+            left.iter()
+                .zip(&norm)
+                .map(|(l, n)| if *n > 0.0 { (l / n).sqrt() } else { 0.0 })
+                .fold(0.0, f64::max)
+        };
+        let mut x = sent.to_vec();
+        let mut r = sent.to_vec();
+        add(&mut r, &vec![-1.0; columns], &apply(&x));
+        let shadow = r.clone();
+        let mut rho = dot(&shadow, &r);
+        let mut p = r.clone();
+        let mut history = vec![relative(&r)];
+        while history[history.len() - 1] > self.tolerance {
+            if history.len() >= 2000 {
+                break;
+            }
+            let v = apply(&p);
+            let alpha = ratio(&rho, &dot(&shadow, &v));
+            let mut s = r.clone();
+            add(&mut s, &negative(&alpha), &v);
+            let t = apply(&s);
+            let omega = ratio(&dot(&t, &s), &dot(&t, &t));
+            add(&mut x, &alpha, &p);
+            add(&mut x, &omega, &s);
+            r = s;
+            add(&mut r, &negative(&omega), &t);
+            let next = dot(&shadow, &r);
+            let beta: Vec<f64> =
+                ratio(&next, &rho).iter().zip(ratio(&alpha, &omega)).map(|(a, b)| a * b).collect();
+            rho = next;
+            add(&mut p, &negative(&omega), &v);
+            let mut direction = r.clone();
+            add(&mut direction, &beta, &p);
+            p = direction;
+            let residual = relative(&r);
+            // f32 carries no more: what is left is rounding.
+            let stuck = history.len() > 8 && residual >= history[history.len() - 4];
+            history.push(residual);
+            if stuck {
+                break;
+            }
+        }
+        let residual = history[history.len() - 1];
+        if residual > 1e3 * self.tolerance.max(1e-6) {
+            return Err(SolveError::Diverged { solver: Solver::BiCgStab, steps: history.len(), residual });
+        }
+        Ok((x, history))
+    }
+
+    /// The part of the light, of all lamps together, that comes in and neither is absorbed nor leaves, in the sample where it is most:
+    /// the energy balance of a solution.
+    #[must_use]
+    pub fn imbalance(&self, irradiance: &[f32]) -> f64 {
+        let columns = self.columns();
+        let (mut came, mut went) = (vec![0f64; self.samples], vec![0f64; self.samples]);
+        let radiosity = self.restricted(irradiance);
+        let between = self.factors.between_patches(self.elements);
+        for side in 0..self.elements.sides.len() {
+            let area = self.elements.area(side as u32);
+            for column in 0..columns {
+                let sample = column % self.samples;
+                let at = side * columns + column;
+                let absorbed = 1.0 - f64::from(self.reflectance[side * self.samples + sample]);
+                came[sample] += area * f64::from(self.direct[at]);
+                went[sample] += area * absorbed * f64::from(irradiance[at]);
+            }
+        }
+        for patch in 0..between.height() {
+            let lost = self.elements.patch_area(patch as u32) * (1.0 - between.sum(patch));
+            for column in 0..columns {
+                went[column % self.samples] += lost * f64::from(radiosity[patch * columns + column]);
+            }
+        }
+        came.iter()
+            .zip(&went)
+            .filter(|(c, _)| **c > 0.0)
+            .map(|(c, w)| (w / c - 1.0).abs())
+            .fold(0.0, f64::max)
+    }
+}

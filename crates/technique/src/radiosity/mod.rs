@@ -1,0 +1,20 @@
+//! Radiosity (Goral et al. 1984; Cohen and Greenberg 1985; book 4.4.2): light between diffuse surfaces is solved for once, and then seen
+//! from anywhere.
+//!
+//! Lamps of every kind are asked from all over each side (as path tracing asks them), so that their light is as exact as shadow rays
+//! are; what surfaces send on goes by form factors. The solution is kept for one unit of light in every sample from each lamp, so
+//! that other lamps are a matter of multiplying.
+
+mod direct;
+mod field;
+mod reflectance;
+mod sensor;
+mod settings;
+mod solution;
+mod view;
+
+pub(crate) use field::Field;
+pub use sensor::basis;
+pub use settings::{Gather, RadiositySettings};
+pub use solution::{RadiosityParts, RadiosityReport, RadiositySolution};
+pub(crate) use view::{View, seen};

@@ -1,0 +1,128 @@
+//! Irradiance where no surface need be: on grids of sensors and on working planes.
+
+use super::direct;
+use super::solution::RadiositySolution;
+use crate::passes::{Light, passes_of};
+use crate::settings::Settings;
+use glam::Vec3;
+use illuminant_illumination::{General, Illumination};
+use illuminant_optics::frame::Frame;
+use illuminant_optics::hemisphere;
+use illuminant_radiosity::{Kronecker, Place};
+use illuminant_sampling::xyz_by;
+use illuminant_scene::{Scene, SurfacePoint};
+use rayon::prelude::*;
+
+impl RadiositySolution {
+    /// XYZ of the irradiance at places, each with the unit normal that it faces; Y is illuminance, lx. Each lamp is asked at `samples`
+    /// places, and as many rays look around for the light that surfaces send.
+    #[must_use]
+    pub fn illuminance(&self, scene: &Scene, places: &[[Vec3; 2]], samples: u32) -> Vec<[f64; 3]> {
+        let geometry = &*scene.geometry;
+        let (low, high) = geometry.bounds();
+        let error = 1e-6 * (high - low).max_element().max(low.abs().max(high.abs()).max_element());
+        let lamps = scene.lamps.len();
+        // Lamps give the same under every model.
+        let passes =
+            passes_of::<8, General<8>>(scene, Illumination::General, &*self.basis, None, &[0], Light::Lamps);
+        let light = self.light(scene);
+        let maps: Vec<_> = (0..lamps).map(|lamp| self.basis.to_xyz(lamp)).collect();
+        let width = self.columns * self.samples;
+        let lamp_of: Vec<usize> =
+            (0..self.columns).map(|c| self.column_of.iter().position(|&of| of == c).unwrap_or(0)).collect();
+        let at = |(number, &[position, normal]): (usize, &[Vec3; 2])| {
+            let point =
+                SurfacePoint { position, error, geometric_normal: normal, normal, uv: glam::Vec2::ZERO };
+            let place = Place { point, normal };
+            let sequence = Kronecker::<4>::new(number as u64 ^ 0x7365_6e73);
+            let mut xyz = [0.0; 3];
+            let mut add = |lamp: usize, samples: &[f64]| {
+                xyz.iter_mut().zip(xyz_by(&maps[lamp], samples)).for_each(|(sum, v)| *sum += v);
+            };
+            for (lamp, _) in maps.iter().enumerate() {
+                let mut sum = vec![0f64; self.samples];
+                for k in 0..samples {
+                    let [u, v, ..] = sequence.point(u64::from(k));
+                    for pass in &passes {
+                        let found = direct::irradiance(scene, &self.elements, pass, lamp, &place, [u, v]);
+                        for (sum, v) in sum[pass.samples.clone()].iter_mut().zip(&found.0) {
+                            *sum += f64::from(*v) / f64::from(samples);
+                        }
+                    }
+                }
+                add(lamp, &sum);
+            }
+            let frame = Frame::from_normal(normal);
+            let mut sums = vec![0f64; width];
+            for k in 0..samples {
+                let [.., u, v] = sequence.point(u64::from(k));
+                let ray = place.ray(frame.to_world(Vec3::from(hemisphere::cosine([u, v]))));
+                let met = self.elements.meet(geometry, ray);
+                let Some(side) = met.and_then(|(ray, hit)| self.elements.side_at(&ray, &hit)) else {
+                    continue;
+                };
+                let side = side as usize;
+                let reflectance = &self.reflectance[side * self.samples..][..self.samples];
+                let irradiance = &self.irradiance[side * width..][..width];
+                for (i, (sum, e)) in sums.iter_mut().zip(irradiance).enumerate() {
+                    *sum += f64::from(reflectance[i % self.samples] * e) / f64::from(samples);
+                }
+            }
+            for column in 0..self.columns {
+                let own = sums[column * self.samples..][..self.samples].iter().zip(&light[column]);
+                add(lamp_of[column], &own.map(|(sum, light)| sum * f64::from(*light)).collect::<Vec<_>>());
+            }
+            xyz
+        };
+        places.par_iter().enumerate().map(at).collect()
+    }
+
+    /// XYZ of the radiance that sides send, emission along the normal included: a row for each side.
+    #[must_use]
+    pub fn radiance_of_sides(&self, scene: &Scene) -> Vec<[f64; 3]> {
+        let light = self.light(scene);
+        let width = self.columns * self.samples;
+        let maps: Vec<_> = (0..scene.lamps.len()).map(|lamp| self.basis.to_xyz(lamp)).collect();
+        let lamp_of: Vec<usize> =
+            (0..self.columns).map(|c| self.column_of.iter().position(|&of| of == c).unwrap_or(0)).collect();
+        (0..self.elements.sides.len())
+            .into_par_iter()
+            .map(|side| {
+                let mut xyz = [0.0; 3];
+                let mut add = |lamp: usize, samples: &[f64]| {
+                    xyz.iter_mut().zip(xyz_by(&maps[lamp], samples)).for_each(|(sum, v)| *sum += v);
+                };
+                let reflectance = &self.reflectance[side * self.samples..][..self.samples];
+                for column in 0..self.columns {
+                    let own = &self.irradiance[side * width + column * self.samples..][..self.samples];
+                    let sent = own.iter().zip(reflectance).zip(&light[column]);
+                    let sent: Vec<f64> =
+                        sent.map(|((e, r), l)| f64::from(e * r * l) / std::f64::consts::PI).collect();
+                    add(lamp_of[column], &sent);
+                }
+                let element = self.elements.element_of(side as u32);
+                let normal = if self.elements.sides[side].back { -element.normal } else { element.normal };
+                if let Some(lamp) = scene.objects[element.object as usize].lamp {
+                    if scene.lamps[lamp].emits(element.normal, -normal) {
+                        let spectrum = &scene.lamps[lamp].spectrum;
+                        add(lamp, &self.basis.reduce(spectrum, illuminant_sampling::Role::Emission));
+                    }
+                }
+                xyz
+            })
+            .collect()
+    }
+}
+
+/// The spectral sampling that settings name, for a scene.
+///
+/// # Errors
+/// [`crate::RenderError`] when there is no such sampling.
+pub fn basis(
+    scene: &std::sync::Arc<Scene>,
+    settings: &Settings,
+) -> Result<std::sync::Arc<dyn illuminant_sampling::Basis>, crate::RenderError> {
+    let sampling: illuminant_sampling::SpectralSampling = settings.sampling.parse()?;
+    let products = || crate::scene_products::products(scene, settings);
+    Ok(sampling.basis(scene.range, &products)?.into())
+}

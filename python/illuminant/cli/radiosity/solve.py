@@ -1,0 +1,109 @@
+"""`illuminant radiosity solve`: a scene becomes a solution."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from illuminant.cli.options import Json, SceneFile
+
+__all__ = ["solve"]
+
+
+def solve(
+    scene: SceneFile,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o", "--output", metavar="FILE", help="The solution (SCENE.solution).", show_default=False
+        ),
+    ] = None,
+    elements: Annotated[
+        int | None,
+        typer.Option("--elements", metavar="N", help="About how many elements surfaces are cut into (6000)."),
+    ] = None,
+    patches: Annotated[
+        int | None,
+        typer.Option(
+            "--patches", metavar="N", help="About how many patches these make, which send light on (as many)."
+        ),
+    ] = None,
+    adaptive: Annotated[
+        float | None,
+        typer.Option(
+            "--adaptive",
+            metavar="F",
+            help="Cut elements again about which direct light differs by more than this fraction (never).",
+        ),
+    ] = None,
+    form_factors: Annotated[
+        str | None,
+        typer.Option(
+            "--form-factors",
+            metavar="HOW",
+            help="How form factors are found: rays:N, hemicube:N, scanline:N, area:N (rays:1024).",
+        ),
+    ] = None,
+    solver: Annotated[
+        str | None,
+        typer.Option(
+            "--solver",
+            metavar="NAME",
+            help="How the equations are solved: bicgstab, gauss-seidel, gauss, progressive (bicgstab).",
+        ),
+    ] = None,
+    light_samples: Annotated[
+        int | None,
+        typer.Option(
+            "--light-samples", metavar="N", help="At how many places of an element each lamp is asked (64)."
+        ),
+    ] = None,
+    illumination: Annotated[
+        str | None,
+        typer.Option(
+            "--illumination", metavar="NAME", help="What a surface does: general, bouknight (general)."
+        ),
+    ] = None,
+    sampling: Annotated[
+        str | None,
+        typer.Option("--sampling", metavar="NAME", help="How wavelengths are carried (fitted:8)."),
+    ] = None,
+    threads: Annotated[
+        int | None, typer.Option("--threads", metavar="N", help="Threads (all cores).")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Solve for the light between the surfaces of a scene, and write the solution.
+
+    Surfaces are taken for diffusers of their reflectance; what is transparent is left out.
+
+    \b
+    Examples:
+      illuminant radiosity solve room.toml -o room.solution
+      illuminant radiosity solve room.toml --elements 50000 --patches 5000 --adaptive 0.2
+    """
+    from illuminant import output as files
+    from illuminant import radiosity
+    from illuminant.cli.radiosity.report import closing, facts
+    from illuminant.cli.report import emit_json, note
+
+    path = files.check(output or Path(scene.stem + ".solution"))
+    found = radiosity.solve(
+        scene,
+        elements=elements,
+        patches=patches,
+        adaptive=adaptive,
+        form_factors=form_factors,
+        solver=solver,
+        light_samples=light_samples,
+        illumination=illumination,
+        sampling=sampling,
+        threads=threads,
+    )
+    found.save(path)
+    if json:
+        emit_json(facts(found) | {"file": path})
+    else:
+        note(closing(str(path), facts(found)))
