@@ -215,7 +215,10 @@ impl CoefficientCurves {
             terminator: 1.0,
         };
         match surface {
-            Surface::Diffuse { reflectance } => Self { diffuse: reflectance.clone(), ..bare },
+            // No historical model scatters light to the other side.
+            Surface::Diffuse { reflectance } | Surface::Translucent { reflectance, .. } => {
+                Self { diffuse: reflectance.clone(), ..bare }
+            }
             Surface::Filter { transmittance } => {
                 Self { transmitted: transmittance.clone(), transparent: true, ..bare }
             }

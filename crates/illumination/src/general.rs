@@ -9,6 +9,7 @@ use crate::coated::{Body, Coated, MetalUnder, Vehicle};
 use crate::conductor::{Conductor, Metal};
 use crate::dielectric::Dielectric;
 use crate::model::{Claims, Components, DiscreteLobe, IlluminationModel, Incidence, Prepare, Scattered};
+use crate::translucent::Translucent;
 use crate::{Finish, Flakes, Illumination, Material, REPRESENTATIVE_NM, Spectral, Surface};
 use glam::Vec3;
 use illuminant_optics::fresnel::conductor;
@@ -35,6 +36,8 @@ pub enum General<const N: usize> {
         /// The same as one number.
         brightness: f32,
     },
+    /// A sheet that scatters light on both sides.
+    Translucent(Translucent<N>),
     /// A conductor.
     Conductor(Conductor<N>),
     /// A dielectric boundary.
@@ -103,6 +106,13 @@ impl<const N: usize> Prepare for General<N> {
             Surface::Filter { transmittance } => {
                 Self::Filter { transmittance: pass.lanes(transmittance, Role::Fraction), brightness }
             }
+            Surface::Translucent { reflectance, transmittance } => {
+                let curves = [reflectance, transmittance];
+                Self::Translucent(Translucent::new(
+                    curves.map(|curve| pass.lanes(curve, Role::Fraction)),
+                    curves.map(|curve| curve.extent(range).1 as f32),
+                ))
+            }
             Surface::Conductor { n, k, finish } => {
                 Self::Conductor(Conductor::new(pass.metal(n, k), brightness, finish, &spectral))
             }
@@ -143,6 +153,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
                 }
             }
             Self::Filter { .. } => Lanes::default(),
+            Self::Translucent(sheet) => sheet.eval(at, to_light),
             Self::Conductor(conductor) => conductor.eval(at, to_light),
             Self::Dielectric(dielectric) => dielectric.eval(at, to_light),
             Self::Coated(coated) => coated.eval(at, to_light),
@@ -152,7 +163,9 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
     fn components(&self, at: &Incidence<'_, N>, to_light: Vec3) -> Components<N> {
         let all = self.eval(at, to_light);
         match self {
-            Self::Diffuse { .. } => Components { diffuse: all, specular: Lanes::default() },
+            Self::Diffuse { .. } | Self::Translucent(_) => {
+                Components { diffuse: all, specular: Lanes::default() }
+            }
             Self::Coated(coated) => {
                 let diffuse = coated.body(at, to_light);
                 // The rest may round to less than nothing.
@@ -173,6 +186,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
                 }
             }
             Self::Filter { .. } => 0.0,
+            Self::Translucent(sheet) => sheet.pdf(at, to_light),
             Self::Conductor(conductor) => conductor.pdf(at, to_light),
             Self::Dielectric(dielectric) => dielectric.pdf(at, to_light),
             Self::Coated(coated) => coated.pdf(at, to_light),
@@ -202,6 +216,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
                 transmitted: true,
                 disperses: false,
             }),
+            Self::Translucent(sheet) => Some(sheet.sample(at, u)),
             Self::Conductor(conductor) => conductor.sample(at, u),
             Self::Dielectric(dielectric) => dielectric.sample(at, u, hero),
             Self::Coated(coated) => coated.sample(at, u),
@@ -210,7 +225,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
 
     fn discrete_lobes(&self, at: &Incidence<'_, N>) -> Vec<DiscreteLobe<N>> {
         match self {
-            Self::Diffuse { .. } => Vec::new(),
+            Self::Diffuse { .. } | Self::Translucent(_) => Vec::new(),
             Self::Filter { transmittance, brightness } => {
                 let (weight, brightness) = (*transmittance, *brightness);
                 vec![DiscreteLobe { direction: -at.to_viewer, weight, brightness, transmitted: true }]
@@ -224,7 +239,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
     #[inline(always)]
     fn is_continuous(&self) -> bool {
         match self {
-            Self::Diffuse { .. } | Self::Coated(_) => true,
+            Self::Diffuse { .. } | Self::Translucent(_) | Self::Coated(_) => true,
             Self::Filter { .. } => false,
             Self::Conductor(conductor) => conductor.is_rough(),
             Self::Dielectric(dielectric) => dielectric.is_rough(),
@@ -241,23 +256,22 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
             let lobes = self.discrete_lobes(at).into_iter().filter(|lobe| !lobe.transmitted);
             lobes.fold(Lanes::default(), |sum, lobe| sum + lobe.weight)
         };
+        let diffuse_alone = |diffuse| Components { diffuse, specular: Lanes::default() };
         let (all, diffuse) = match self {
-            Self::Diffuse { brdf, .. } => (*brdf * PI, *brdf * PI),
+            Self::Diffuse { brdf, .. } => return diffuse_alone(*brdf * PI),
             Self::Filter { .. } => return Components::default(),
+            Self::Translucent(sheet) => return diffuse_alone(sheet.albedo()),
             Self::Conductor(conductor) => (conductor.reflectance(at), Lanes::default()),
             Self::Dielectric(dielectric) => (dielectric.reflectance(at), Lanes::default()),
             Self::Coated(coated) => (coated.reflectance(at), coated.body_reflectance(at)),
         };
-        if matches!(self, Self::Diffuse { .. }) {
-            return Components { diffuse, specular: Lanes::default() };
-        }
         let specular = (all + (diffuse + mirrored()) * -1.0).map(|rest| rest.max(0.0));
         Components { diffuse, specular }
     }
 
     fn follows_gloss(&self) -> bool {
         match self {
-            Self::Diffuse { .. } | Self::Filter { .. } => false,
+            Self::Diffuse { .. } | Self::Filter { .. } | Self::Translucent(_) => false,
             Self::Conductor(conductor) => conductor.is_rough(),
             Self::Dielectric(dielectric) => dielectric.is_rough(),
             Self::Coated(_) => true,
@@ -283,7 +297,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
             Self::Conductor(conductor) => conductor.gloss(),
             Self::Dielectric(dielectric) => dielectric.gloss(),
             Self::Coated(coated) => coated.gloss(),
-            Self::Diffuse { .. } | Self::Filter { .. } => 0.0,
+            Self::Diffuse { .. } | Self::Filter { .. } | Self::Translucent(_) => 0.0,
         }
     }
 
@@ -300,6 +314,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
         match self {
             Self::Diffuse { .. } => Self::Diffuse { brdf: *colour * FRAC_1_PI, brightness },
             Self::Filter { .. } => Self::Filter { transmittance: *colour, brightness },
+            Self::Translucent(sheet) => Self::Translucent(sheet.with_reflectance(colour, brightness)),
             Self::Coated(coated) => Self::Coated(coated.with_pigment(colour, brightness)),
             Self::Conductor(_) | Self::Dielectric(_) => self.clone(),
         }
@@ -307,6 +322,7 @@ impl<const N: usize> IlluminationModel<N> for General<N> {
 
     fn share_of_white(&self, at: &Incidence<'_, N>, colour: &Lanes<N>) -> Lanes<N> {
         match self {
+            Self::Translucent(sheet) => sheet.share_of_white(colour),
             Self::Coated(coated) => coated.share_of_white(at, colour),
             _ => *colour,
         }

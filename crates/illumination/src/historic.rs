@@ -129,7 +129,9 @@ impl<const N: usize> Coloured<N> {
             Surface::Filter { .. } if stated.all(|over| over.transmitted_curve.is_none()) => {
                 Self::Filter(curves.transmitted_scale)
             }
-            Surface::Diffuse { .. } if stated.all(|over| over.diffuse_curve.is_none()) => {
+            Surface::Diffuse { .. } | Surface::Translucent { .. }
+                if stated.all(|over| over.diffuse_curve.is_none()) =>
+            {
                 Self::Diffuser(scales)
             }
             Surface::Coated { n, finish, film, flakes, .. }

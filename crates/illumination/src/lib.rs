@@ -27,6 +27,7 @@ mod rough_boundary;
 mod samples;
 mod shading;
 mod spectral;
+mod translucent;
 mod whitted;
 
 pub use atmosphere::{Atmosphere, filter_attenuation};
@@ -54,6 +55,7 @@ pub use phong::Phong;
 pub use samples::{Samples, Weighed};
 pub use shading::{Light, Shaded, shade};
 pub use spectral::Spectral;
+pub use translucent::Translucent;
 pub use whitted::Whitted;
 
 use std::fmt;

@@ -1,7 +1,7 @@
 //! What a material is, physically.
 
 use crate::{Finish, Overrides};
-use illuminant_spectrum::{Curve, SpectralRange};
+use illuminant_spectrum::{Curve, Outside, SpectralRange};
 
 /// The wavelength whose index stands for a dielectric wherever one number must do: sodium d, 589.3 nm.
 pub const REPRESENTATIVE_NM: f64 = 589.3;
@@ -39,6 +39,13 @@ pub enum Surface {
     /// A thin filter, such as a gel before a lamp: it absorbs, and neither reflects nor bends light.
     Filter {
         /// Fraction of light let through.
+        transmittance: Curve,
+    },
+    /// A thin sheet that scatters light on both sides, such as paper; the two add up to at most 1 at every wavelength.
+    Translucent {
+        /// Hemispherical reflectance, on the side from which light comes, a fraction.
+        reflectance: Curve,
+        /// Hemispherical transmittance, on the other side, a fraction.
         transmittance: Curve,
     },
     /// A transparent dielectric body.
@@ -100,24 +107,29 @@ impl Material {
     #[must_use]
     pub fn slope(&self) -> f64 {
         match &self.surface {
-            Surface::Diffuse { .. } | Surface::Filter { .. } => 0.0,
+            Surface::Diffuse { .. } | Surface::Filter { .. } | Surface::Translucent { .. } => 0.0,
             Surface::Conductor { finish, .. }
             | Surface::Dielectric { finish, .. }
             | Surface::Coated { finish, .. } => finish.slope[0].max(finish.slope[1]),
         }
     }
 
-    /// A reflectance at normal incidence that stands for the material in auxiliary images and error estimates:
-    /// the diffuse reflectance, a filter's transmittance, or Fresnel's of the smooth boundary (1 for a clear dielectric, which passes the rest).
+    /// A reflectance at normal incidence that stands for the material in auxiliary images and error estimates: the
+    /// diffuse reflectance, a filter's transmittance, the sum of the two for a translucent sheet, or Fresnel's of the
+    /// smooth boundary (1 for a clear dielectric, which passes the rest).
     #[must_use]
     pub fn representative_reflectance(&self, range: SpectralRange) -> Curve {
         use illuminant_optics::fresnel::conductor;
         match &self.surface {
             Surface::Diffuse { reflectance } => reflectance.clone(),
             Surface::Filter { transmittance } => transmittance.clone(),
+            Surface::Translucent { reflectance, transmittance } => {
+                let values = range.wavelengths().map(|w| reflectance.at(w) + transmittance.at(w)).collect();
+                Curve::tabulated(range, values, Outside::Hold)
+            }
             Surface::Conductor { n, k, .. } => {
                 let values = range.wavelengths().map(|w| conductor(1.0, n.at(w), k.at(w))).collect();
-                Curve::tabulated(range, values, illuminant_spectrum::Outside::Hold)
+                Curve::tabulated(range, values, Outside::Hold)
             }
             Surface::Dielectric { .. } => Curve::constant(1.0),
             Surface::Coated { pigment, .. } => pigment.clone(),
@@ -133,6 +145,18 @@ impl Material {
         let surface = match &self.surface {
             Surface::Diffuse { .. } => Surface::Diffuse { reflectance: Curve::constant(1.0) },
             Surface::Filter { .. } => Surface::Filter { transmittance: Curve::constant(1.0) },
+            Surface::Translucent { reflectance, transmittance } => {
+                // What was absorbed is shared out; beyond the range the last share is held, and the sum is 1 there too.
+                let range = SpectralRange::default();
+                let share = |w: f64| match [reflectance.at(w), transmittance.at(w)] {
+                    [r, t] if r + t > 0.0 => r / (r + t),
+                    _ => 0.5,
+                };
+                let reflected: Vec<f64> = range.wavelengths().map(share).collect();
+                let transmitted = reflected.iter().map(|r| 1.0 - r).collect();
+                let curve = |values| Curve::tabulated(range, values, Outside::Hold);
+                Surface::Translucent { reflectance: curve(reflected), transmittance: curve(transmitted) }
+            }
             Surface::Conductor { finish, .. } => {
                 let (n, k) = perfect();
                 Surface::Conductor { n, k, finish: *finish }

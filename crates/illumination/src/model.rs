@@ -189,8 +189,8 @@ pub trait IlluminationModel<const N: usize>: Send + Sync {
         through.fold(Lanes::default(), |sum, lobe| sum + lobe.weight)
     }
 
-    /// The same surface where an image gives the colour of what lies under it or in it: the reflectance of a diffuser or a
-    /// pigment, the transmittance of a filter, in lanes and as one number. Other surfaces have no such colour, and stay as they are.
+    /// The same surface where an image gives the colour of what lies under it or in it: the reflectance of a diffuser, a
+    /// translucent sheet or a pigment, the transmittance of a filter, in lanes and as one number. Other surfaces have no such colour, and stay as they are.
     #[must_use]
     fn coloured(&self, colour: &Lanes<N>, brightness: f32) -> Self
     where

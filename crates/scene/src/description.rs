@@ -151,6 +151,13 @@ pub enum SurfaceData {
         /// Fraction of light let through.
         transmittance: usize,
     },
+    /// A thin sheet that scatters light on both sides.
+    Translucent {
+        /// Reflectance, in [0, 1].
+        reflectance: usize,
+        /// Transmittance, in [0, 1]; with the reflectance at most 1.
+        transmittance: usize,
+    },
     /// A dielectric body.
     Dielectric {
         /// Index of refraction.
@@ -215,7 +222,7 @@ pub enum ShapeData {
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SkinData {
-    /// Reflectance of a diffuser or a pigment, transmittance of a filter.
+    /// Reflectance of a diffuser, a translucent sheet or a pigment, transmittance of a filter.
     pub colour: Option<ColourTextureData>,
     /// The slope of the relief.
     pub slope: Option<SlopeTextureData>,

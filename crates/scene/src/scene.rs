@@ -235,6 +235,25 @@ pub(crate) fn fraction(
     Ok(curve)
 }
 
+/// Refuses a reflectance and a transmittance of which more light leaves than came.
+fn shares(
+    place: &str,
+    reflectance: &Curve,
+    transmittance: &Curve,
+    range: SpectralRange,
+) -> Result<(), SceneError> {
+    let sums = range.wavelengths().map(|w| (reflectance.at(w) + transmittance.at(w), w));
+    let (most, w) = sums.fold((0.0, 0.0), |most, sum| if sum.0 > most.0 { sum } else { most });
+    // Decimal fractions that add up to 1 may round to a little more.
+    if most > 1.0 + 1e-9 {
+        let problem = format!(
+            "reflectance and transmittance must not exceed 1 together, and reach {most:.4} at {w} nm"
+        );
+        return Err(error(place, problem));
+    }
+    Ok(())
+}
+
 fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Result<Material, SceneError> {
     let place = format!("materials.{}", data.name);
     let at_least = |what: &str, index: usize, least: f64| at_least(curves, &place, what, index, least, range);
@@ -258,6 +277,12 @@ fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Resu
         }
         SurfaceData::Filter { transmittance } => {
             Surface::Filter { transmittance: fraction("transmittance", *transmittance)? }
+        }
+        SurfaceData::Translucent { reflectance, transmittance } => {
+            let reflectance = fraction("reflectance", *reflectance)?;
+            let transmittance = fraction("transmittance", *transmittance)?;
+            shares(&place, &reflectance, &transmittance, range)?;
+            Surface::Translucent { reflectance, transmittance }
         }
         SurfaceData::Conductor { n, k, finish: relief } => {
             let (n, k) = (at_least("n", *n, 1e-4)?, at_least("k", *k, 0.0)?);
@@ -635,4 +660,23 @@ fn camera(description: &Description) -> Result<Camera, SceneError> {
         });
     }
     Ok(camera)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use illuminant_spectrum::Outside;
+
+    #[test]
+    fn a_sheet_that_would_make_light_is_refused() {
+        let range = SpectralRange::default();
+        let ramp = Curve::new(vec![400.0, 600.0], vec![0.2, 0.7], Outside::Hold).unwrap();
+        let refused = shares("materials.paper", &ramp, &Curve::constant(0.4), range).unwrap_err().to_string();
+        assert!(
+            refused.contains("materials.paper") && refused.contains("reach 1.1000 at 600 nm"),
+            "{refused}"
+        );
+        // In binary (0.33 + 0.56) + 0.11 is a little more than 1.
+        shares("materials.paper", &Curve::constant(0.33 + 0.56), &Curve::constant(0.11), range).unwrap();
+    }
 }

@@ -239,10 +239,16 @@ impl Textures {
     ) -> Result<Skin, String> {
         let mut skin = Skin::default();
         if let Some(colour) = &data.colour {
-            let has_colour =
-                matches!(surface, Surface::Diffuse { .. } | Surface::Filter { .. } | Surface::Coated { .. });
+            let has_colour = matches!(
+                surface,
+                Surface::Diffuse { .. }
+                    | Surface::Filter { .. }
+                    | Surface::Translucent { .. }
+                    | Surface::Coated { .. }
+            );
             if !has_colour {
-                return Err("only diffusers, filters and coats take their colour from an image".into());
+                let those = "diffusers, filters, translucent sheets and coats";
+                return Err(format!("only {those} take their colour from an image"));
             }
             let mut basis = Vec::with_capacity(3);
             for &index in &colour.basis {
@@ -257,8 +263,11 @@ impl Textures {
             skin.colour = Some(ColourTexture { texture, basis, finished });
         }
         if let Some(slope) = &data.slope {
-            if matches!(surface, Surface::Diffuse { .. } | Surface::Filter { .. }) {
-                return Err("a diffuser and a filter have no roughness".into());
+            if matches!(
+                surface,
+                Surface::Diffuse { .. } | Surface::Filter { .. } | Surface::Translucent { .. }
+            ) {
+                return Err("a diffuser, a filter and a translucent sheet have no roughness".into());
             }
             if slope.channel > 2 || !slope.slopes.iter().all(|m| (0.0..=1.0).contains(m)) {
                 return Err("an image of slopes has a channel 0, 1 or 2 and slopes between 0 and 1".into());

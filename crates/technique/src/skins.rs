@@ -91,7 +91,7 @@ fn with_slope(material: &Material, slope: f64) -> Material {
         | Surface::Coated { finish, .. } => {
             *finish = Finish { slope: [slope; 2], ..*finish };
         }
-        Surface::Diffuse { .. } | Surface::Filter { .. } => {}
+        Surface::Diffuse { .. } | Surface::Filter { .. } | Surface::Translucent { .. } => {}
     }
     found
 }

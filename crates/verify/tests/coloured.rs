@@ -28,6 +28,7 @@ fn coloured_as(colour: Curve) -> Vec<Surface> {
     vec![
         Surface::Diffuse { reflectance: colour.clone() },
         Surface::Filter { transmittance: colour.clone() },
+        Surface::Translucent { reflectance: colour.clone(), transmittance: ramp(0.5, 0.2) },
         coat(Finish::MIRROR, None, None),
         coat(Finish::rough(0.3), Some(film), None),
         coat(Finish::rough(0.2), None, Some(flakes)),

@@ -1,7 +1,9 @@
-//! The model `general` under all testers: diffuse, smooth and rough conductors, smooth and rough dielectrics
+//! The model `general` under all testers: diffuse, translucent, smooth and rough conductors, smooth and rough dielectrics
 //! looked at from both sides and beyond the critical angle, with and without dispersion.
 
-use illuminant_illumination::{Conductor, Dielectric, Finish, General, IlluminationModel, Metal, Spectral};
+use illuminant_illumination::{
+    Conductor, Dielectric, Finish, General, IlluminationModel, Metal, Spectral, Translucent,
+};
 use illuminant_sampling::Lanes;
 use illuminant_verify::chi_square::{ChiSquare, sidak};
 use illuminant_verify::discrete::frequencies;
@@ -45,6 +47,11 @@ fn diffuse(reflectance: f32) -> Model {
     General::Diffuse { brdf: Lanes::splat(reflectance * FRAC_1_PI), brightness: reflectance }
 }
 
+fn translucent(reflectance: f32, transmittance: f32) -> Model {
+    let lanes = [reflectance, transmittance].map(Lanes::splat);
+    General::Translucent(Translucent::new(lanes, [reflectance, transmittance]))
+}
+
 /// Copper by eye: n falls and k rises from blue to red (the book's figure III.4).
 fn copper(m: f64) -> Model {
     let lane = |i: usize| i as f32 / 7.0;
@@ -78,6 +85,10 @@ fn rough_cases() -> Vec<Case> {
     };
     for reflectance in [0.3, 1.0] {
         add(format!("diffuse {reflectance}"), diffuse(reflectance), Site::new(1.0, 1.0), reflectance == 1.0);
+    }
+    for (r, t) in [(0.6, 0.3), (0.3, 0.7), (0.0, 1.0)] {
+        let name = format!("translucent {r} {t}");
+        add(name, translucent(r, t), Site::new(1.0, 1.0), r + t == 1.0);
     }
     for alpha in ROUGHNESS {
         add(format!("copper, roughness {alpha}"), copper(alpha), Site::new(1.0, 1.0), false);

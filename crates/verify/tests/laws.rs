@@ -38,6 +38,7 @@ fn materials() -> Vec<Material> {
     [
         Surface::Diffuse { reflectance: ramp(0.2, 0.9) },
         Surface::Filter { transmittance: ramp(0.1, 0.9) },
+        Surface::Translucent { reflectance: ramp(0.2, 0.7), transmittance: ramp(0.6, 0.3) },
         metal(Finish::MIRROR),
         metal(Finish::rough(0.1)),
         metal(Finish::rough(0.7)),
