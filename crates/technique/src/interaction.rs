@@ -92,12 +92,14 @@ impl<'a, const N: usize, M: IlluminationModel<N> + Prepare> Interaction<'a, N, M
         };
         let local = frame.to_local(to_viewer);
         let outside = local.z > 0.0;
-        let beyond = if outside {
+        // An opaque surface, or a thin sheet, has the same media on both sides.
+        let beyond = if !base.bounds_media() {
+            around
+        } else if outside {
             around.entered(material, scene.priorities[material])
         } else {
             around.left(material)
         };
-        // An opaque surface, or a filter, has the same medium on both sides.
         let (near, far) = if outside || !base.bounds_media() {
             (around.innermost(), Some(material))
         } else {
