@@ -113,6 +113,10 @@ class Resolver:
             entry["reflectance"] = self._colour(table, bad, "reflectance", path, skin)
         elif table.kind == "filter":
             entry["transmittance"] = self._colour(table, bad, "transmittance", path, skin)
+        elif table.kind == "translucent":
+            entry["reflectance"] = self._colour(table, bad, "reflectance", path, skin)
+            entry["transmittance"] = self._spectrum(table, bad, "transmittance", "reflectance", path)
+            self._shares(entry["reflectance"], entry["transmittance"], path)
         elif table.kind == "conductor":
             for part in ("n", "k"):
                 entry[part] = self._part_of(table, bad, "metal", part, path)
@@ -303,6 +307,25 @@ class Resolver:
                     entry[key] = value
             entries.append(entry)
         return entries
+
+    def _shares(self, reflectance: Spectrum | None, transmittance: Spectrum | None, path: Path) -> None:
+        """Reports a reflectance and a transmittance of which more light leaves than came."""
+        import numpy as np
+
+        if reflectance is None or transmittance is None:
+            return
+        first, last = self.curves.range_nm
+        points = (first, *reflectance.wavelengths_nm, *transmittance.wavelengths_nm, last)
+        nanometres = np.clip(np.unique(points), first, last)
+        sums = reflectance.at(nanometres) + transmittance.at(nanometres)
+        worst = int(sums.argmax())
+        # Decimal fractions that add up to 1 may round to a little more.
+        if sums[worst] > 1.0 + 1e-9:
+            message = (
+                f"must not exceed 1 together with reflectance; at {nanometres[worst]:g} nm they add up to "
+                f"{sums[worst]:.4g}"
+            )
+            self.report.add((*path, "transmittance"), message, kind="range")
 
     def _conductor_form(self, raw: dict[str, Any], path: Path) -> None:
         if "metal" in raw:

@@ -64,6 +64,7 @@ __all__ = [
     "Sphere",
     "Spot",
     "Table",
+    "Translucent",
 ]
 
 MAX_PIXELS = 2**26
@@ -406,6 +407,23 @@ class ThinFilter(Table):
     coefficients: dict[str, Any] | None = COEFFICIENTS
 
 
+class Translucent(Table):
+    """A thin sheet that scatters light on both sides (Lambert): paper, a lampshade, opal acrylic, a blind.
+
+    `reflectance` and `transmittance` add up to at most 1 at every wavelength; the rest is absorbed. An image of the
+    reflectance leaves the transmittance as it is, and counts up to 1 − transmittance.
+    """
+
+    kind: Literal["translucent"] = key("the kind of material", '"translucent"')
+    reflectance: ColourValue = key(
+        "fraction of light scattered back to its own side, 0 to 1, or an image of it", "0.55"
+    )
+    transmittance: SpectrumValue = key("fraction of light scattered to the other side, 0 to 1", "0.35")
+    bump: HeightValue | None = BUMP
+    normal_map: NormalImage | None = NORMAL_MAP
+    coefficients: dict[str, Any] | None = COEFFICIENTS
+
+
 class Emitter(Quantities):
     """A surface that shines, with the same radiance in all directions unless it says otherwise, and reflects diffusely.
 
@@ -596,7 +614,7 @@ class Medium(Table):
     )
 
 
-MaterialValue = Diffuse | Conductor | Dielectric | Coated | Named | ThinFilter | Emitter
+MaterialValue = Diffuse | Conductor | Dielectric | Coated | Named | ThinFilter | Translucent | Emitter
 LightValue = Point | Spot | Directional | Environment | Sky
 
 KINDS_OF_MATERIAL: dict[str, type[Table]] = {
@@ -606,6 +624,7 @@ KINDS_OF_MATERIAL: dict[str, type[Table]] = {
     "coated": Coated,
     "named": Named,
     "filter": ThinFilter,
+    "translucent": Translucent,
     "emitter": Emitter,
 }
 KINDS_OF_LIGHT: dict[str, type[Table]] = {

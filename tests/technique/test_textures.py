@@ -51,12 +51,14 @@ def mixture(parts):
 
 
 @pytest.mark.parametrize(("technique", "illumination"), PAIRS)
-@pytest.mark.parametrize("kind", ["diffuse", "coated"])
+@pytest.mark.parametrize("kind", ["diffuse", "translucent", "coated"])
 def test_an_image_of_one_colour_is_that_colour(technique, illumination, kind):
     parts = (0.6, 0.25, 0.1)
     image = np.broadcast_to(np.float32(parts), (5, 7, 3)).copy()
-    rest = {"kind": kind} | ({"roughness": 0.2} if kind == "coated" else {})
-    key = "reflectance" if kind == "diffuse" else "pigment"
+    rest = {"kind": kind} | {"coated": {"roughness": 0.2}, "translucent": {"transmittance": 0.3}}.get(
+        kind, {}
+    )
+    key = "pigment" if kind == "coated" else "reflectance"
     plain = xyz(scene(rest | {key: mixture(parts)}), technique, illumination)
     shown = xyz(scene(rest | {key: {"image": image}}), technique, illumination)
     assert shown.max() > 50
