@@ -1,9 +1,9 @@
 """Radiosity: the light between surfaces solved for once, then seen from anywhere and relit (book 4.4.2, appendix IV.2).
 
 `solve` cuts the surfaces of a scene into elements, finds how they see each other (form factors) and solves
-B = E + ρ F B for all lamps and all spectral samples at once. The `Solution` keeps the light of each lamp apart, for one
-unit of light in every sample. So other lamps are a matter of multiplying, other paints of a few iterations, and an object
-that moves changes only what sees it.
+B = E + ρ F B for all lamps and all spectral samples at once. The `Solution` keeps the light of each lamp apart, for
+one unit of light in every sample. So other lamps are a matter of multiplying, other paints of a few iterations, and
+an object that moves changes only what sees it.
 
 Example:
     >>> solution = solve("scenes/cornell.toml", elements=6000)          # doctest: +SKIP
@@ -75,9 +75,9 @@ class Solution:
         settings: how it was solved.
         report: how it came about: numbers of elements, sides, patches and form factors; `closure_mean` and
             `closure_worst`, how far rows of form factors are from 1 (in a closed scene an error, in an open one what
-            leaves); `reciprocity`, the part of all exchange in which A_i F_ij and A_j F_ji differ; `history`, the relative
-            residual after each step; `imbalance`, the part of all light that is neither absorbed nor leaves; seconds for
-            each stage; `memory` in bytes.
+            leaves); `reciprocity`, the part of all exchange between objects in which A_i F_ij and A_j F_ji differ;
+            `history`, the relative residual after each step; `imbalance`, the part of all light that is neither
+            absorbed nor leaves; seconds for each stage; `memory` in bytes.
     """
 
     def __init__(
@@ -117,7 +117,8 @@ class Solution:
         if lamps:
             if not self.report["per_lamp"]:
                 raise UsageError(
-                    f"The light of more than {MOST_LAMPS} lamps is not kept apart, so they cannot be changed: solve anew."
+                    f"The light of more than {MOST_LAMPS} lamps is not kept apart, so they cannot be changed: solve "
+                    "anew."
                 )
             scene = _with_lamps(scene, lamps)
         if materials:
@@ -125,10 +126,11 @@ class Solution:
         return self.of(scene)
 
     def of(self, scene: Scene) -> Solution:
-        """The solution for a scene that differs in spectra of lamps, in materials, in the camera, or in where objects stand.
+        """The solution for a scene that differs in spectra of lamps, materials, the camera, or where objects are.
 
-        Only what changed is found again: nothing for lamps; the equations for paints; the form factors that see an object
-        which moved (Baum et al. 1986). The number of rows of form factors that this took is `report["rows_again"]`.
+        Only what changed is found again: nothing for lamps; the equations for paints; the form factors that see an
+        object which moved (Baum et al. 1986). The number of rows of form factors that this took is
+        `report["rows_again"]`.
 
         Raises:
             UsageError: the scene differs in more than that; solve it anew.
@@ -301,12 +303,11 @@ class Solution:
                 raise DataError(
                     f"{name} has the format {header['format']!r}, which this version does not read."
                 )
-            settings = Settings(
-                **{
-                    key: tuple(one) if isinstance(one, list) else one
-                    for key, one in header["settings"].items()
-                }
-            )
+            told: dict[str, Any] = header["settings"]
+            known: dict[str, Any] = {
+                key: tuple(one) if isinstance(one, list) else one for key, one in told.items()
+            }
+            settings = Settings(**known)
             scene = Scene.from_bytes(arrays.pop("scene").tobytes())
             fitted = Scene.from_bytes(arrays.pop("fitted_to").tobytes())
         except DataError:
@@ -328,8 +329,8 @@ class Solution:
         return cls(scene, settings, found, fitted_to=fitted)
 
     def save_mesh(self, path: str | os.PathLike[str], *, exposure: float | None = None) -> float:
-        """Write the surfaces as GLB (glTF 2): vertex colours are linear sRGB for a display, 8 bits a channel; the attribute
-        `_XYZ` holds the absolute XYZ of each corner in floats.
+        """Write the surfaces as GLB (glTF 2): vertex colours are linear sRGB for a display, 8 bits a channel; the
+        attribute `_XYZ` holds the absolute XYZ of each corner in floats.
 
         Args:
             path: the file, `.glb`.
@@ -372,8 +373,12 @@ class Solution:
             )
             part.vertex_attributes["_XYZ"] = mesh.xyz[used].astype(np.float32)
             scene.add_geometry(part, node_name=thing["name"], geom_name=thing["name"])
-        output.write_bytes(path, bytes(scene.export(file_type="glb", include_normals=True)))
+        output.write_bytes(path, _glb(scene))
         return float(exposure)
+
+
+def _glb(scene: Any) -> bytes:
+    return bytes(scene.export(file_type="glb", include_normals=True))
 
 
 _OF_SOLUTION = ("elements", "patches", "adaptive", "form_factors", "solver", "light_samples")

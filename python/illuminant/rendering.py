@@ -495,8 +495,8 @@ def render(
         form_factors: how they are found; default `rays:1024`, or `hemicube:N`, `scanline:N`, `area:N`.
         solver: default `bicgstab`, or `gauss-seidel`, `gauss`, `progressive`.
         light_samples: at how many places of an element each lamp is asked; default 64.
-        gather: what a pixel makes of the solution; default `none`, which shows it, or `direct`, which asks lamps again, or
-            `full`, which looks around from every pixel (final gather).
+        gather: what a pixel makes of the solution; default `none`, which shows it, or `direct`, which asks lamps again,
+            or `full`, which looks around from every pixel (final gather).
         progress: called about ten times a second with a `Progress`; returning False ends the render with what
             is done.
         on_partial: called after each range with the image so far.

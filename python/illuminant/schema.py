@@ -223,7 +223,7 @@ class Render(Table):
         None,
     )
     form_factors: Annotated[str, Field(pattern=r"^(rays|hemicube|scanline|area)(:\d{1,7})?$")] | None = key(
-        "how form factors are found: so many rays, a hemi-cube of so many cells along an edge with rays or scanlines, or "
+        "how form factors are found: so many rays, a hemi-cube of so many cells along an edge by rays or scanlines, or "
         "Lambert's formula at so many places",
         '"rays:1024"',
         None,
@@ -235,8 +235,8 @@ class Render(Table):
         "at how many places of an element each lamp is asked", "64", None
     )
     gather: Literal["none", "direct", "full"] | None = key(
-        "what a pixel makes of the solution of `radiosity`: it is shown, or lamps are asked again, or a path looks around "
-        "(final gather)",
+        "what a pixel makes of the solution of `radiosity`: it is shown, or lamps are asked again, or a path looks "
+        "around (final gather)",
         '"none"',
         None,
     )

@@ -17,7 +17,7 @@ DECADES = 3.0
 
 
 def save_map(image: Image, path: str | os.PathLike[str]) -> None:
-    """Draw the luminance of an image, cd/m², on a logarithmic scale over three powers of ten below its 99.5th percentile.
+    """Draw the luminance of an image, cd/m², on a logarithmic scale: three powers of ten below the 99.5th percentile.
 
     Raises:
         UsageError: the name does not end with .png or .svg.
