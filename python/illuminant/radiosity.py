@@ -151,6 +151,10 @@ class Solution:
         if moved:
             found, rows = found.moved(self.scene.core(self.settings.threads), core_scene, settings, moved)
         if _paints(self.scene) != _paints(scene):
+            if self.settings.technique == "hybrid" and _mirrors(self.scene) != _mirrors(scene):
+                raise UsageError(
+                    "What mirrors or lets light through has changed, and with it form factors: solve anew."
+                )
             found = found.repainted(core_scene, settings)
         result = Solution(scene, self.settings, found, fitted_to=self._fitted_to)
         result.report["rows_again"] = rows
@@ -381,7 +385,16 @@ def _glb(scene: Any) -> bytes:
     return bytes(scene.export(file_type="glb", include_normals=True))
 
 
-_OF_SOLUTION = ("elements", "patches", "adaptive", "form_factors", "solver", "light_samples")
+_OF_SOLUTION = (
+    "elements",
+    "patches",
+    "adaptive",
+    "form_factors",
+    "solver",
+    "light_samples",
+    "mechanisms",
+    "threshold",
+)
 """The options by which a solution is made."""
 
 
@@ -478,6 +491,17 @@ def _paints(scene: Scene) -> Any:
         name: array.tobytes() for name, array in scene.arrays.items() if name.startswith("image:texture ")
     }
     return parts["materials"], parts["skins"], [thing["material"] for thing in parts["objects"]], images
+
+
+def _mirrors(scene: Scene) -> list[Any]:
+    """The materials that are more than diffuse."""
+    from illuminant.resolution import in_place
+
+    materials = in_place(scene.description)["materials"]
+    return [
+        one["surface"] if one["surface"]["kind"] not in ("diffuse", "translucent") else None
+        for one in materials
+    ]
 
 
 def _moved(before: Scene, now: Scene) -> list[int]:

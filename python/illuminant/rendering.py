@@ -448,6 +448,8 @@ def render(
     solver: str | None = None,
     light_samples: int | None = None,
     gather: str | None = None,
+    mechanisms: str | Sequence[str] | None = None,
+    frustum: int | None = None,
     progress: OnProgress | None = None,
     on_partial: Callable[[Image], object] | None = None,
 ) -> Image:
@@ -497,6 +499,10 @@ def render(
         light_samples: at how many places of an element each lamp is asked; default 64.
         gather: what a pixel makes of the solution; default `none`, which shows it, or `direct`, which asks lamps again,
             or `full`, which looks around from every pixel (final gather).
+        mechanisms: ways of light that `hybrid` follows, how it arrives and how it is reflected: `dd`, `sd`, `ds`, `ss`
+            (d diffuse, s specular); default all.
+        frustum: rays along an edge of the frustum in which `hybrid` samples what rough surfaces mirror; default one
+            ray, drawn.
         progress: called about ten times a second with a `Progress`; returning False ends the render with what
             is done.
         on_partial: called after each range with the image so far.
@@ -550,6 +556,8 @@ def render(
         solver=solver,
         light_samples=light_samples,
         gather=gather,
+        mechanisms=mechanisms,
+        frustum=frustum,
     )
     _log_warnings(job)
     for _ in job.passes(progress):

@@ -240,6 +240,16 @@ class Render(Table):
         '"none"',
         None,
     )
+    mechanisms: list[Literal["dd", "sd", "ds", "ss"]] | None = key(
+        "ways of light that `hybrid` follows: how it arrives and how it is reflected, diffuse or specular; default all",
+        '["dd", "sd"]',
+        None,
+    )
+    frustum: Annotated[int, Field(ge=2, le=32)] | None = key(
+        "rays along an edge of the frustum in which `hybrid` samples what rough surfaces mirror; default one, drawn",
+        "5",
+        None,
+    )
     exposure: Positive | None = key("factor from luminance in cd/m² to the display's 0 to 1", "0.01", None)
     filter: Filter | None = key("reconstruction filter", '{ kind = "gaussian", radius = 1.5 }', None)
 

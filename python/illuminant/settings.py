@@ -41,14 +41,16 @@ LAYERS = ("depth", "normal", "albedo", "samples", "terms")
 SCANLINE = ("constant", "gouraud", "phong")
 """The techniques that scan polygons."""
 
-RAY_TREES = ("raytrace", "distributed")
+RAY_TREES = ("raytrace", "distributed", "hybrid")
 """The techniques that follow trees of rays."""
 
-SOLVED = ("radiosity",)
+SOLVED = ("radiosity", "hybrid")
 """The techniques that solve for the light between surfaces first."""
 
 SOLVERS = ("bicgstab", "gauss-seidel", "gauss", "progressive")
 GATHERS = ("none", "direct", "full")
+MECHANISMS = ("dd", "sd", "ds", "ss")
+"""The ways of light of `hybrid`: how it arrives, diffuse or specular, and how it is reflected (book figure 4.27)."""
 FORM_FACTORS = {"rays": 1024, "hemicube": 64, "scanline": 64, "area": 16}
 """How form factors are found, with the number that each has if none is stated."""
 
@@ -113,6 +115,8 @@ class Settings:
         solver: `bicgstab`, `gauss-seidel`, `gauss` or `progressive`.
         light_samples: at how many places of an element each lamp is asked.
         gather: what a pixel makes of the solution: `none` shows it, `direct` asks lamps again, `full` looks around.
+        mechanisms: ways of light that `hybrid` follows: `dd`, `sd`, `ds`, `ss`.
+        frustum: rays along an edge of the frustum in which `hybrid` samples gloss; None draws one ray.
     """
 
     technique: str = "path"
@@ -148,6 +152,8 @@ class Settings:
     solver: str = "bicgstab"
     light_samples: int = 64
     gather: str = "none"
+    mechanisms: tuple[str, ...] = MECHANISMS
+    frustum: int | None = None
 
     @property
     def replicates(self) -> int:
@@ -194,6 +200,13 @@ class Settings:
                     "solver": self.solver,
                     "light_samples": self.light_samples,
                     "gather": self.gather,
+                    "mechanisms": {
+                        "diffuse_to_diffuse": "dd" in self.mechanisms,
+                        "specular_to_diffuse": "sd" in self.mechanisms,
+                        "diffuse_to_specular": "ds" in self.mechanisms,
+                        "specular_to_specular": "ss" in self.mechanisms,
+                    },
+                    "frustum": self.frustum,
                 },
             }
         )
@@ -226,6 +239,8 @@ class Settings:
             "solver": self.solver,
             "light_samples": self.light_samples,
             "gather": self.gather,
+            **({"mechanisms": ",".join(self.mechanisms)} if self.mechanisms != MECHANISMS else {}),
+            **({} if self.frustum is None else {"frustum": self.frustum}),
         }
 
     def _ray_trees(self) -> dict[str, Any]:
@@ -314,6 +329,8 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         )
     if "shadows" in chosen:
         chosen["shadows"] = shadows_of(chosen["shadows"])
+    if "mechanisms" in chosen:
+        chosen["mechanisms"] = _names("mechanisms", chosen["mechanisms"], MECHANISMS)
     if "infinite" in chosen:
         chosen["infinite"] = _names("infinite", chosen["infinite"], INFINITE)
     if "subdivide" in chosen and not (
@@ -336,6 +353,7 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         ("elements", 1, 4_000_000),
         ("patches", 1, 4_000_000),
         ("light_samples", 1, 65536),
+        ("frustum", 2, 32),
     ):
         if chosen.get(name) is not None:
             chosen[name] = _whole(name, chosen[name], least, most)

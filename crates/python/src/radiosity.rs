@@ -3,7 +3,7 @@
 use crate::scene::PyScene;
 use crate::technique::{settings, shaped};
 use glam::Vec3;
-use illuminant_radiosity::Sparse;
+use illuminant_radiosity::{Sparse, SpectralRows};
 use illuminant_technique::{RadiosityParts, RadiositySolution, basis};
 use numpy::ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, ToPyArray};
@@ -33,6 +33,20 @@ fn flat(dict: &Bound<'_, PyDict>, key: &str) -> PyResult<Vec<f32>> {
     Ok(item::<PyReadonlyArray1<'_, f32>>(dict, key)?.as_array().to_vec())
 }
 
+const DAMAGED: &str = "the form factors of the solution are damaged";
+
+/// Where rows of form factors begin, and their columns.
+fn layout(dict: &Bound<'_, PyDict>, prefix: &str, width: usize) -> PyResult<(Vec<usize>, Vec<u32>)> {
+    let starts = item::<PyReadonlyArray1<'_, u64>>(dict, &format!("{prefix}starts"))?;
+    let starts: Vec<usize> = starts.as_array().iter().map(|v| *v as usize).collect();
+    let columns = item::<PyReadonlyArray1<'_, u32>>(dict, &format!("{prefix}columns"))?.as_array().to_vec();
+    let rising = starts.windows(2).all(|w| w[0] <= w[1]) && starts.first() == Some(&0);
+    if !rising || starts.last() != Some(&columns.len()) || columns.iter().any(|&c| c as usize >= width) {
+        return Err(wrong(DAMAGED));
+    }
+    Ok((starts, columns))
+}
+
 fn threes(values: Vec<[f64; 3]>) -> PyResult<Array2<f64>> {
     shaped(Array2::from_shape_vec((values.len(), 3), values.into_iter().flatten().collect()))
 }
@@ -59,21 +73,27 @@ impl PySolution {
         parts: &Bound<'_, PyDict>,
     ) -> PyResult<Self> {
         let settings = self::settings(settings)?;
-        let starts = item::<PyReadonlyArray1<'_, u64>>(parts, "starts")?;
-        let starts: Vec<usize> = starts.as_array().iter().map(|v| *v as usize).collect();
-        let columns = item::<PyReadonlyArray1<'_, u32>>(parts, "columns")?.as_array().to_vec();
-        let values = flat(parts, "values")?;
         let width: usize = item(parts, "width")?;
-        let rising = starts.windows(2).all(|w| w[0] <= w[1]) && starts.first() == Some(&0);
-        let sound = rising
-            && starts.last() == Some(&values.len())
-            && columns.len() == values.len()
-            && columns.iter().all(|&c| (c as usize) < width);
-        if !sound {
-            return Err(wrong("the form factors of the solution are damaged"));
+        let (starts, columns) = layout(parts, "", width)?;
+        let values = flat(parts, "values")?;
+        let specular = if parts.contains("specular_starts")? {
+            let (starts, columns) = layout(parts, "specular_", width)?;
+            let values = flat(parts, "specular_values")?;
+            let samples = values.len() / columns.len().max(1);
+            if samples * columns.len() != values.len() {
+                return Err(wrong(DAMAGED));
+            }
+            Some(SpectralRows { starts, columns, values, samples })
+        } else {
+            None
+        };
+        if columns.len() != values.len() {
+            return Err(wrong(DAMAGED));
         }
         let parts = RadiosityParts {
             rows: Sparse { starts, columns, values, width },
+            specular,
+            transmittance: flat(parts, "transmittance")?,
             direct: flat(parts, "direct")?,
             irradiance: flat(parts, "irradiance")?,
             reflectance: flat(parts, "reflectance")?,
@@ -96,6 +116,13 @@ impl PySolution {
         dict.set_item("direct", self.0.direct.to_pyarray(py))?;
         dict.set_item("irradiance", self.0.irradiance.to_pyarray(py))?;
         dict.set_item("reflectance", self.0.reflectance.to_pyarray(py))?;
+        dict.set_item("transmittance", self.0.transmittance.to_pyarray(py))?;
+        if let Some(rows) = &self.0.specular {
+            let starts = rows.starts.iter().map(|v| *v as u64);
+            dict.set_item("specular_starts", PyArray1::from_iter(py, starts))?;
+            dict.set_item("specular_columns", rows.columns.to_pyarray(py))?;
+            dict.set_item("specular_values", rows.values.to_pyarray(py))?;
+        }
         Ok(dict)
     }
 

@@ -51,6 +51,17 @@ impl Place {
     }
 }
 
+/// What an object is to the light that is solved for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Its surface is cut into elements.
+    Surface,
+    /// Light passes it as if it were not there.
+    Clear,
+    /// It stands in the way of light, and has no elements.
+    Apart,
+}
+
 /// How fine surfaces are cut.
 #[derive(Clone, Copy, Debug)]
 pub struct Refinement {
@@ -75,8 +86,8 @@ pub struct Elements {
     pub patches: Vec<Vec<u32>>,
     element_of: Vec<u32>,
     side_of: Vec<[u32; 2]>,
-    /// Objects that rays pass.
-    clear: Vec<bool>,
+    /// What each object is.
+    parts: Vec<Part>,
 }
 
 fn triangle_area([a, b, c]: [Vec3; 3]) -> f64 {
@@ -93,12 +104,11 @@ fn spherical_area(corners: [Vec3; 3], (center, radius): (Vec3, f32)) -> f64 {
 }
 
 impl Elements {
-    /// Cuts the surfaces of the objects that take part (`takes_part`, one for each), in such a way that no element is larger than
-    /// `refinement` says; `lit` tells for an object and a side of it whether light is solved for there.
+    /// Cuts surfaces (`parts` tells of each object what it is), in such a way that no element is larger than `refinement` says; `lit` tells for an object and a side of it whether light is solved for there.
     #[must_use]
     pub fn new(
         geometry: &Geometry,
-        takes_part: &[bool],
+        parts: &[Part],
         refinement: Refinement,
         lit: &dyn Fn(usize, bool) -> bool,
     ) -> Self {
@@ -106,14 +116,14 @@ impl Elements {
         let mut next = 0;
         while next < subdivision.len() {
             let node = next as u32;
-            let large = takes_part[subdivision.object(node) as usize]
+            let large = parts[subdivision.object(node) as usize] == Part::Surface
                 && area(&subdivision, node) > refinement.element * (1.0 + 1e-6);
             if large {
                 subdivision.bisect(node);
             }
             next += 1;
         }
-        Self::of(geometry, subdivision, takes_part, refinement.patch, lit)
+        Self::of(geometry, subdivision, parts, refinement.patch, lit)
     }
 
     /// The elements of a subdivision that is given.
@@ -121,13 +131,13 @@ impl Elements {
     pub fn of(
         geometry: &Geometry,
         subdivision: Subdivision,
-        takes_part: &[bool],
+        parts: &[Part],
         patch: f64,
         lit: &dyn Fn(usize, bool) -> bool,
     ) -> Self {
         let mut all = Self {
             element_of: vec![NONE; subdivision.len()],
-            clear: takes_part.iter().map(|part| !part).collect(),
+            parts: parts.to_vec(),
             subdivision,
             all: Vec::new(),
             sides: Vec::new(),
@@ -135,14 +145,14 @@ impl Elements {
             patches: Vec::new(),
             side_of: Vec::new(),
         };
-        let lit: Vec<[bool; 2]> = (0..takes_part.len())
-            .map(|object| [false, true].map(|back| takes_part[object] && lit(object, back)))
+        let lit: Vec<[bool; 2]> = (0..parts.len())
+            .map(|object| [false, true].map(|back| parts[object] == Part::Surface && lit(object, back)))
             .collect();
         // The ancestor that was the last patch on each side: leaves of one ancestor follow each other.
         let mut last = [(NONE, 0u32); 2];
         for node in all.subdivision.leaves() {
             let object = all.subdivision.object(node);
-            if !takes_part[object as usize] {
+            if parts[object as usize] != Part::Surface {
                 continue;
             }
             let element = all.all.len() as u32;
@@ -211,6 +221,14 @@ impl Elements {
         &self.all[self.sides[side as usize].element as usize]
     }
 
+    /// The other side of the same element, if light is solved for there.
+    #[inline]
+    #[must_use]
+    pub fn opposite(&self, side: u32) -> Option<u32> {
+        let Side { element, back } = self.sides[side as usize];
+        self.side(element, !back)
+    }
+
     /// The area of a side, m².
     #[must_use]
     pub fn area(&self, side: u32) -> f64 {
@@ -264,26 +282,26 @@ impl Elements {
         Place { point, normal: if back { -point.geometric_normal } else { point.geometric_normal } }
     }
 
-    /// The surface that a ray meets, with what takes no part passed.
+    /// The surface that a ray meets, with what is clear passed.
     #[inline]
     #[must_use]
     pub fn meet(&self, geometry: &Geometry, mut ray: Ray) -> Option<(Ray, Hit)> {
         loop {
             let hit = geometry.closest_hit(&ray)?;
-            if !self.clear[hit.object as usize] {
+            if self.parts[hit.object as usize] != Part::Clear {
                 return Some((ray, hit));
             }
             ray.origin = geometry.surface(&ray, &hit).offset(ray.direction);
         }
     }
 
-    /// Whether a span from a place is free, but for what takes no part.
+    /// Whether a span from a place is free, but for what is clear.
     #[must_use]
     pub fn is_free(&self, geometry: &Geometry, origin: Vec3, span: Vec3, tfar: f32) -> bool {
         if !geometry.is_occluded(origin, span, 0.0, tfar) {
             return true;
         }
-        if !self.clear.contains(&true) {
+        if !self.parts.contains(&Part::Clear) {
             return false;
         }
         let length = span.length();
@@ -292,6 +310,12 @@ impl Elements {
         self.meet(geometry, ray).is_none_or(|(ray, hit)| {
             ray.origin.distance(origin) + hit.distance >= length * tfar * (1.0 - 1e-4)
         })
+    }
+
+    /// What an object is.
+    #[must_use]
+    pub fn part(&self, object: u32) -> Part {
+        self.parts[object as usize]
     }
 
     /// The side that a ray meets at a hit, if light is solved for there.

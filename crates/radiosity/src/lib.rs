@@ -21,7 +21,7 @@ mod solve;
 mod sparse;
 mod subdivision;
 
-pub use elements::{Element, Elements, Place, Refinement, Side};
+pub use elements::{Element, Elements, Part, Place, Refinement, Side};
 pub use form_factors::{FormFactors, Looking, Method, Row};
 pub use hemicube::Hemicube;
 pub use points::Points;
@@ -30,5 +30,5 @@ pub use rays::{Direction, directions};
 pub use reach::reached;
 pub use sequence::Kronecker;
 pub use solve::{Problem, Solution, SolveError, Solver};
-pub use sparse::Sparse;
+pub use sparse::{Sparse, SpectralRows};
 pub use subdivision::{Located, Subdivision};

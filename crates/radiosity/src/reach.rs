@@ -1,6 +1,6 @@
 //! Which sides of objects light reaches at all: the inside of a closed body is not worth solving for, that of a room is.
 
-use crate::elements::Elements;
+use crate::elements::{Elements, Part};
 use crate::form_factors::Looking;
 use crate::rays;
 use illuminant_scene::Geometry;
@@ -9,12 +9,14 @@ use rayon::prelude::*;
 /// Rays by which each side of a coarse element looks around.
 const RAYS: u32 = 64;
 
-/// Of each object whether light reaches its outside and its inside: sides that lamps light (`lit`), and all that see such a side, or see one
-/// that does. `elements` are coarse, with both sides of everything that takes part.
+/// Of each object whether light reaches its outside and its inside: sides that lamps light (`lit`), all that see such a side, or see one
+/// that does, and both sides of a sheet that lets light through (`sheets`, one for each object). `elements` are coarse, with both
+/// sides of everything that takes part.
 #[must_use]
 pub fn reached(
     geometry: &Geometry,
     elements: &Elements,
+    sheets: &[bool],
     lit: &(dyn Fn(u32) -> bool + Sync),
 ) -> Vec<[bool; 2]> {
     let objects = geometry.objects();
@@ -26,15 +28,16 @@ pub fn reached(
         .into_par_iter()
         .map(|side| {
             let mut seen = Vec::new();
+            let mut other = false;
             rays::directions(geometry, elements, side, &looking, &mut |direction| {
-                let met = elements.meet(geometry, direction.ray);
-                if let Some(met) = met.and_then(|(ray, hit)| elements.side_at(&ray, &hit)) {
-                    seen.push(number(met));
-                }
+                let Some((ray, hit)) = elements.meet(geometry, direction.ray) else { return };
+                // Mirrors and glass may bring light from anywhere.
+                other |= elements.part(hit.object) == Part::Apart;
+                seen.extend(elements.side_at(&ray, &hit).map(number));
             });
             seen.sort_unstable();
             seen.dedup();
-            (number(side), lit(side), seen)
+            (number(side), other || lit(side), seen)
         })
         .collect();
     let mut sees = vec![Vec::new(); 2 * objects];
@@ -46,7 +49,10 @@ pub fn reached(
     // Light goes from what is reached to what sees it, until nothing new is.
     loop {
         let new: Vec<usize> = (0..2 * objects)
-            .filter(|&side| !reached[side] && sees[side].iter().any(|&other| reached[other]))
+            .filter(|&side| {
+                let through = sheets[side / 2] && reached[side ^ 1];
+                !reached[side] && (through || sees[side].iter().any(|&other| reached[other]))
+            })
             .collect();
         if new.is_empty() {
             break;

@@ -4,6 +4,7 @@
 
 use crate::elements::Elements;
 use crate::form_factors::FormFactors;
+use crate::sparse::SpectralRows;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use std::fmt;
@@ -93,8 +94,12 @@ pub struct Problem<'a> {
     pub elements: &'a Elements,
     /// How they see each other.
     pub factors: &'a FormFactors,
+    /// What sides receive from patches by way of mirrors and glass, where that is followed.
+    pub specular: Option<&'a SpectralRows>,
     /// Of each side the reflectance in every sample, rows that follow each other.
     pub reflectance: &'a [f32],
+    /// Of each side what it lets through of diffuse light, as diffuse light on its other side; nothing where no surface does.
+    pub transmittance: &'a [f32],
     /// Of each side the irradiance straight from each lamp in every sample: rows of `lamps × samples`.
     pub direct: &'a [f32],
     /// Spectral samples.
@@ -124,8 +129,11 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// [`SolveError`]: a reflectance is above 1, the patches are too many for elimination, or an iteration does not converge.
     pub fn solve(&self, solver: Solver) -> Result<Solution, SolveError> {
-        if let Some(at) = self.reflectance.iter().position(|r| !(0.0..=1.0 + 1e-5).contains(r)) {
-            return Err(SolveError::Creates { side: at / self.samples, reflectance: self.reflectance[at] });
+        let through = |at: usize| self.transmittance.get(at).copied().unwrap_or(0.0);
+        let returned = |at: usize| self.reflectance[at] + through(at);
+        if let Some(at) = (0..self.reflectance.len()).find(|&at| !(0.0..=1.0 + 1e-4).contains(&returned(at)))
+        {
+            return Err(SolveError::Creates { side: at / self.samples, reflectance: returned(at) });
         }
         let sent = self.restricted(self.direct);
         let (radiosity, history) = match solver {
@@ -145,15 +153,30 @@ impl<'a> Problem<'a> {
         irradiance
             .par_chunks_mut(columns.max(1))
             .enumerate()
-            .for_each(|(side, sum)| self.factors.rows.add_row(side, radiosity, sum));
+            .for_each(|(side, sum)| self.receive(side, radiosity, sum));
         irradiance
     }
 
-    /// Adds what a side returns of its irradiance to its patch.
+    /// Adds the irradiance of a side under the radiosity of patches.
     #[inline]
-    fn send(&self, side: u32, irradiance: &[f32], patch: &mut [f32], area: f64) {
+    fn receive(&self, side: usize, radiosity: &[f32], sum: &mut [f32]) {
+        self.factors.rows.add_row(side, radiosity, sum);
+        if let Some(specular) = self.specular {
+            specular.add_row(side, radiosity, sum);
+        }
+    }
+
+    /// The side through which light comes to another one, if anything is let through.
+    #[inline]
+    fn behind(&self, side: u32) -> Option<u32> {
+        if self.transmittance.is_empty() { None } else { self.elements.opposite(side) }
+    }
+
+    /// Adds what a side sends of its own irradiance, or of that of the side behind it, to its patch.
+    #[inline]
+    fn send(&self, side: u32, of: &[f32], irradiance: &[f32], patch: &mut [f32], area: f64) {
         let share = (self.elements.area(side) / area) as f32;
-        let reflectance = &self.reflectance[side as usize * self.samples..][..self.samples];
+        let reflectance = &of[side as usize * self.samples..][..self.samples];
         for (patch, irradiance) in patch.chunks_mut(self.samples).zip(irradiance.chunks(self.samples)) {
             for ((b, e), r) in patch.iter_mut().zip(irradiance).zip(reflectance) {
                 *b += share * r * e;
@@ -169,7 +192,11 @@ impl<'a> Problem<'a> {
         radiosity.par_chunks_mut(columns.max(1)).enumerate().for_each(|(patch, b)| {
             let area = self.elements.patch_area(patch as u32);
             for &side in &self.elements.patches[patch] {
-                self.send(side, &irradiance[side as usize * columns..][..columns], b, area);
+                let of = |side: u32| &irradiance[side as usize * columns..][..columns];
+                self.send(side, self.reflectance, of(side), b, area);
+                if let Some(behind) = self.behind(side) {
+                    self.send(side, self.transmittance, of(behind), b, area);
+                }
             }
         });
         radiosity
@@ -178,7 +205,11 @@ impl<'a> Problem<'a> {
     /// What patches send of the light of other patches.
     fn reflected(&self, radiosity: &[f32]) -> Vec<f32> {
         let columns = self.columns();
-        let irradiance = self.factors.rows.times(radiosity, columns);
+        let mut irradiance = vec![0f32; self.elements.sides.len() * columns];
+        irradiance
+            .par_chunks_mut(columns.max(1))
+            .enumerate()
+            .for_each(|(side, sum)| self.receive(side, radiosity, sum));
         self.restricted(&irradiance)
     }
 
@@ -204,10 +235,21 @@ impl<'a> Problem<'a> {
                 let mut matrix = DMatrix::<f64>::identity(patches, patches);
                 for (side, &patch) in self.elements.patch_of.iter().enumerate() {
                     let share = self.elements.area(side as u32) / areas[patch as usize];
-                    let reflected = share * f64::from(self.reflectance[side * self.samples + sample]);
-                    let (of, values) = self.factors.rows.row(side);
-                    for (&column, &value) in of.iter().zip(values) {
-                        matrix[(patch as usize, column as usize)] -= reflected * f64::from(value);
+                    let mut add = |from: usize, of: &[f32]| {
+                        let sent = share * f64::from(of[side * self.samples + sample]);
+                        let (columns, values) = self.factors.rows.row(from);
+                        for (&column, &value) in columns.iter().zip(values) {
+                            matrix[(patch as usize, column as usize)] -= sent * f64::from(value);
+                        }
+                        let Some(specular) = self.specular else { return };
+                        let (columns, values) = specular.row(from);
+                        for (&column, values) in columns.iter().zip(values.chunks(self.samples)) {
+                            matrix[(patch as usize, column as usize)] -= sent * f64::from(values[sample]);
+                        }
+                    };
+                    add(side, self.reflectance);
+                    if let Some(behind) = self.behind(side as u32) {
+                        add(behind as usize, self.transmittance);
                     }
                 }
                 let right = DMatrix::from_fn(patches, lamps, |patch, lamp| {
@@ -239,9 +281,15 @@ impl<'a> Problem<'a> {
                 let area = self.elements.patch_area(patch as u32);
                 new.fill(0.0);
                 for &side in sides {
-                    irradiance.copy_from_slice(&self.direct[side as usize * columns..][..columns]);
-                    self.factors.rows.add_row(side as usize, &radiosity, &mut irradiance);
-                    self.send(side, &irradiance, &mut new, area);
+                    let mut add = |from: u32, of: &[f32]| {
+                        irradiance.copy_from_slice(&self.direct[from as usize * columns..][..columns]);
+                        self.receive(from as usize, &radiosity, &mut irradiance);
+                        self.send(side, of, &irradiance, &mut new, area);
+                    };
+                    add(side, self.reflectance);
+                    if let Some(behind) = self.behind(side) {
+                        add(behind, self.transmittance);
+                    }
                 }
                 for (b, n) in radiosity[patch * columns..][..columns].iter_mut().zip(&new) {
                     changed += area * f64::from((*n - *b).abs());
@@ -258,10 +306,20 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The patch with most unshot light sends it to all sides that see it.
+    /// The patch with most unshot light sends it to all sides that see it, and what comes by way of mirrors too.
     fn progressive(&self, sent: &[f32]) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
         let (columns, patches) = (self.columns(), self.elements.patches.len());
         let seen_by = self.factors.rows.transposed();
+        // Of each patch the sides that see it by way of mirrors, and where their entries stand.
+        let mut mirrored: Vec<Vec<(u32, usize)>> = Vec::new();
+        if let Some(specular) = self.specular {
+            mirrored.resize(patches, Vec::new());
+            for side in 0..self.elements.sides.len() {
+                for at in specular.starts[side]..specular.starts[side + 1] {
+                    mirrored[specular.columns[at] as usize].push((side as u32, at));
+                }
+            }
+        }
         let areas: Vec<f64> = (0..patches as u32).map(|p| self.elements.patch_area(p)).collect();
         let (mut radiosity, mut unshot) = (sent.to_vec(), sent.to_vec());
         let power = |unshot: &[f32], patch: usize| {
@@ -281,19 +339,34 @@ impl<'a> Problem<'a> {
             unshot[shooter * columns..][..columns].fill(0.0);
             left -= waiting[shooter];
             waiting[shooter] = 0.0;
+            let mut arrive = |side: u32, arriving: &[f32]| {
+                let mut add = |sender: u32, of: &[f32]| {
+                    let patch = self.elements.patch_of[sender as usize] as usize;
+                    returned.fill(0.0);
+                    self.send(sender, of, arriving, &mut returned, areas[patch]);
+                    let before = waiting[patch];
+                    for (i, r) in returned.iter().enumerate() {
+                        radiosity[patch * columns + i] += r;
+                        unshot[patch * columns + i] += r;
+                        waiting[patch] += areas[patch] * f64::from(*r);
+                    }
+                    left += waiting[patch] - before;
+                };
+                add(side, self.reflectance);
+                if let Some(behind) = self.behind(side) {
+                    add(behind, self.transmittance);
+                }
+            };
             let (sides, factors) = seen_by.row(shooter);
             for (&side, &factor) in sides.iter().zip(factors) {
-                let patch = self.elements.patch_of[side as usize] as usize;
-                returned.fill(0.0);
-                let arriving: Vec<f32> = shot.iter().map(|v| v * factor).collect();
-                self.send(side, &arriving, &mut returned, areas[patch]);
-                let before = waiting[patch];
-                for (i, r) in returned.iter().enumerate() {
-                    radiosity[patch * columns + i] += r;
-                    unshot[patch * columns + i] += r;
-                    waiting[patch] += areas[patch] * f64::from(*r);
-                }
-                left += waiting[patch] - before;
+                arrive(side, &shot.iter().map(|v| v * factor).collect::<Vec<_>>());
+            }
+            for &(side, at) in mirrored.get(shooter).into_iter().flatten() {
+                let Some(specular) = self.specular else { break };
+                let values = &specular.values[at * self.samples..][..self.samples];
+                let arriving: Vec<f32> =
+                    shot.iter().enumerate().map(|(i, v)| v * values[i % self.samples]).collect();
+                arrive(side, &arriving);
             }
             history.push(if all > 0.0 { left / all } else { 0.0 });
         }
@@ -387,21 +460,33 @@ impl<'a> Problem<'a> {
         let columns = self.columns();
         let (mut came, mut went) = (vec![0f64; self.samples], vec![0f64; self.samples]);
         let radiosity = self.restricted(irradiance);
-        let between = self.factors.between_patches(self.elements);
         for side in 0..self.elements.sides.len() {
             let area = self.elements.area(side as u32);
             for column in 0..columns {
                 let sample = column % self.samples;
                 let at = side * columns + column;
-                let absorbed = 1.0 - f64::from(self.reflectance[side * self.samples + sample]);
+                let returned = side * self.samples + sample;
+                let through = self.transmittance.get(returned).copied().unwrap_or(0.0);
+                let absorbed = 1.0 - f64::from(self.reflectance[returned] + through);
                 came[sample] += area * f64::from(self.direct[at]);
                 went[sample] += area * absorbed * f64::from(irradiance[at]);
             }
         }
-        for patch in 0..between.height() {
-            let lost = self.elements.patch_area(patch as u32) * (1.0 - between.sum(patch));
+        // What a side does not see of other surfaces, by way of mirrors too, it sends where none of them receive it.
+        let mut seen = vec![0f64; self.samples];
+        for side in 0..self.elements.sides.len() {
+            seen.fill(self.factors.rows.sum(side));
+            if let Some(specular) = self.specular {
+                for values in specular.row(side).1.chunks(self.samples) {
+                    seen.iter_mut().zip(values).for_each(|(sum, v)| *sum += f64::from(*v));
+                }
+            }
+            let patch = self.elements.patch_of[side] as usize;
+            let area = self.elements.area(side as u32);
             for column in 0..columns {
-                went[column % self.samples] += lost * f64::from(radiosity[patch * columns + column]);
+                let sample = column % self.samples;
+                let lost = area * (1.0 - seen[sample]);
+                went[sample] += lost * f64::from(radiosity[patch * columns + column]);
             }
         }
         came.iter()

@@ -107,6 +107,62 @@ impl Sparse {
     }
 }
 
+/// Rows of entries that are another number in every spectral sample: what surfaces send each other by way of mirrors and glass.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SpectralRows {
+    /// Where each row begins; one more than there are rows.
+    pub starts: Vec<usize>,
+    /// The column of each entry.
+    pub columns: Vec<u32>,
+    /// The entries, each of as many numbers as there are samples.
+    pub values: Vec<f32>,
+    /// How many samples there are.
+    pub samples: usize,
+}
+
+impl SpectralRows {
+    /// Rows that are put together.
+    #[must_use]
+    pub fn from_rows(rows: &[(Vec<u32>, Vec<f32>)], samples: usize) -> Self {
+        let mut all = Self { starts: vec![0], samples, ..Self::default() };
+        for (columns, values) in rows {
+            all.columns.extend(columns);
+            all.values.extend(values);
+            all.starts.push(all.columns.len());
+        }
+        all
+    }
+
+    /// The columns of a row, and their numbers in all samples.
+    #[inline]
+    #[must_use]
+    pub fn row(&self, row: usize) -> (&[u32], &[f32]) {
+        let (from, to) = (self.starts[row], self.starts[row + 1]);
+        (&self.columns[from..to], &self.values[from * self.samples..to * self.samples])
+    }
+
+    /// Adds a row's product with a matrix of which each row has all samples once or several times.
+    #[inline]
+    pub fn add_row(&self, row: usize, right: &[f32], sum: &mut [f32]) {
+        let count = sum.len();
+        let (columns, values) = self.row(row);
+        for (&column, values) in columns.iter().zip(values.chunks(self.samples)) {
+            let from = &right[column as usize * count..][..count];
+            for (sum, from) in sum.chunks_mut(self.samples).zip(from.chunks(self.samples)) {
+                for ((sum, v), f) in sum.iter_mut().zip(from).zip(values) {
+                    *sum += f * v;
+                }
+            }
+        }
+    }
+
+    /// Bytes that it takes.
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        self.starts.len() * 8 + self.columns.len() * 4 + self.values.len() * 4
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

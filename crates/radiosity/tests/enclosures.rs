@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Mat3, Vec3, vec3};
 use illuminant_radiosity::{
-    Elements, FormFactors, Looking, Method, Problem, Refinement, Solver, progressive,
+    Elements, FormFactors, Looking, Method, Part, Problem, Refinement, Solver, progressive,
 };
 use illuminant_scene::{Geometry, Mesh, Motion, Placement, Shape, embree};
 
@@ -40,8 +40,8 @@ fn inside_of_box(size: Vec3) -> Vec<Shape> {
 }
 
 fn cut(geometry: &Geometry, element: f64, patch: f64, back: bool) -> Elements {
-    let takes_part = vec![true; geometry.objects()];
-    Elements::new(geometry, &takes_part, Refinement { element, patch }, &|_, side| side == back)
+    let parts = vec![Part::Surface; geometry.objects()];
+    Elements::new(geometry, &parts, Refinement { element, patch }, &|_, side| side == back)
 }
 
 const METHODS: [Method; 4] =
@@ -83,6 +83,8 @@ fn a_sphere_of_different_parts_is_lit_evenly() {
         let problem = Problem {
             elements: &elements,
             factors: &factors,
+            specular: None,
+            transmittance: &[],
             reflectance: &reflectance,
             direct: &direct,
             samples: 1,
@@ -117,6 +119,8 @@ fn a_closed_box_of_one_paint_holds_e_over_1_minus_rho() {
         let problem = Problem {
             elements: &elements,
             factors: &factors,
+            specular: None,
+            transmittance: &[],
             reflectance: &reflectance,
             direct: &direct,
             samples: 2,
@@ -150,6 +154,8 @@ fn solvers_agree() {
     let problem = Problem {
         elements: &elements,
         factors: &factors,
+        specular: None,
+        transmittance: &[],
         reflectance: &reflectance,
         direct: &direct,
         samples: 2,
@@ -186,6 +192,8 @@ fn a_surface_that_creates_light_is_refused() {
     let problem = Problem {
         elements: &elements,
         factors: &factors,
+        specular: None,
+        transmittance: &[],
         reflectance: &reflectance,
         direct: &direct,
         samples: 1,

@@ -30,7 +30,9 @@ pub use film::{Film, LayerPlan, TOO_LARGE, TileFilm, fixed};
 pub use filter::{Filter, FilterSampler};
 pub use passes::Replay;
 pub use path::{Counts, PathTracer, Probe, Query, Recorder, Vertex};
-pub use radiosity::{Gather, RadiosityParts, RadiosityReport, RadiositySettings, RadiositySolution, basis};
+pub use radiosity::{
+    Gather, Mechanisms, RadiosityParts, RadiosityReport, RadiositySettings, RadiositySolution, basis,
+};
 pub use render::{Dropped, Progress, Render, RenderError, Statistics};
 pub use sampler::Sampler;
 pub use scanline::edges;

@@ -69,10 +69,13 @@ pub fn pair(technique: Technique, illumination: Illumination) -> Pair {
         (T::Radiosity, I::General) => Pair::Sensible(
             "each surface is a diffuser of the same reflectance, and all light between them is solved for",
         ),
-        (T::Radiosity, I::Bouknight) => {
+        (T::Hybrid, I::General) => Pair::Sensible(
+            "all light between surfaces is solved for, by way of mirrors and glass too, and rays follow what these show",
+        ),
+        (T::Radiosity | T::Hybrid, I::Bouknight) => {
             Pair::Warned("what is not diffuse is lost: metal and glass return less light than they receive")
         }
-        (T::Radiosity, _) => Pair::Refused(
+        (T::Radiosity | T::Hybrid, _) => Pair::Refused(
             "the model can return more light than it receives, and what surfaces send each other again and again would \
              grow; use general or bouknight, or path, which warns",
         ),

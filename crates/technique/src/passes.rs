@@ -165,12 +165,12 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
         let How { technique, illumination, settings, light, solution } = how;
         let depth = settings.depth.unwrap_or(u32::MAX);
         let gather = settings.radiosity.gather;
+        let paths = Tracer::Paths(PathTracer { depth, gathered: None });
         let mut tracer = match RayTree::new(scene, settings, technique) {
+            _ if technique.is_solved() && gather == Gather::Full => paths,
             Some(tree) => Tracer::Trees(tree),
-            None if technique == Technique::Radiosity && gather != Gather::Full => {
-                Tracer::Solution(View::new(gather))
-            }
-            None => Tracer::Paths(PathTracer { depth, gathered: None }),
+            None if technique == Technique::Radiosity => Tracer::Solution(View::new(gather)),
+            None => paths,
         };
         let passes = |basis: &dyn Basis, companion| {
             let mut all = passes_of(scene, illumination, basis, companion, groups, light);

@@ -15,7 +15,6 @@ use glam::Vec3;
 use illuminant_illumination::{IlluminationModel, Prepare, Surface};
 use illuminant_sampling::Lanes;
 use illuminant_scene::{Hit, Ray, Scene, SurfacePoint};
-use std::f32::consts::FRAC_1_PI;
 
 /// The part of a pixel that one path sees of a texture: many paths share a pixel.
 pub(crate) const OF_PIXEL: f32 = 0.5;
@@ -163,6 +162,8 @@ struct State<const N: usize> {
     draws: Option<Draws>,
     /// Whether the first surface scattered the path.
     scattered_first: bool,
+    /// Whether any surface did.
+    looks_around: bool,
     /// Whether what a lamp sends along the path is found from the lamp.
     from_lamps: bool,
 }
@@ -193,6 +194,7 @@ impl PathTracer {
             cone: [0.0, OF_PIXEL * scene.camera.pixel_angle()],
             draws: None,
             scattered_first: false,
+            looks_around: false,
             from_lamps: false,
         };
         for segment in 1..=self.depth {
@@ -290,20 +292,19 @@ impl PathTracer {
         sequence: &mut Sequence,
         radiance: &mut [Lanes<N>],
     ) -> bool {
-        let (Some(field), Some(_)) = (&pass.field, path.origin) else { return false };
+        let Some(field) = pass.field.as_ref().filter(|_| path.looks_around) else { return false };
         let material = scene.objects[hit.object as usize].material;
+        let surface = &scene.materials[material].surface;
         // Nearer than the solution is detailed the path itself knows better.
-        if !matches!(scene.materials[material].surface, Surface::Diffuse { .. })
+        if !matches!(surface, Surface::Diffuse { .. } | Surface::Translucent { .. })
             || distance < field.detail(hit, point.position)
         {
             return false;
         }
         let (reflectance, _) =
             radiosity::seen(scene, pass, field, (&path.ray, hit, point), path.cone[0], sequence);
-        let brdf = path.light.throughput * reflectance * FRAC_1_PI;
-        let sides = (point.geometric_normal, path.ray.direction);
-        field.irradiance(hit, point.position, sides, |group, irradiance| {
-            radiance[path.light.bundle + group] += brdf * irradiance;
+        field.radiance(reflectance, hit, point, path.ray.direction, |group, sent| {
+            radiance[path.light.bundle + group] += path.light.throughput * sent;
         })
     }
 
@@ -356,6 +357,7 @@ impl PathTracer {
         path.scattered_first |= segment == 1 && !gathers;
         path.from_lamps = gathers && path.scattered_first;
         path.ray = Ray { origin: point.offset(direction), direction, time: path.ray.time };
+        path.looks_around |= drawn.pdf.is_some();
         path.origin = drawn.pdf.map(|pdf| (point.position, met.normal, pdf));
         // A drawn direction stands for 1/pdf of solid angle.
         path.cone[1] += drawn.pdf.map_or(0.0, |pdf| OF_LOBE * pdf.max(1e-3).sqrt().recip());

@@ -15,16 +15,54 @@ use crate::interaction::{Interaction, next_surface};
 use crate::lanes::Pass;
 use crate::media::Media;
 use crate::path::{OF_LOBE, OF_PIXEL, Primary, Probe, Vertex, power_heuristic, sum};
+use crate::radiosity::{Counted, Gather, Mechanisms, diffuse_at};
 use crate::sequence::Sequence;
 use crate::settings::{LightCentres, Settings, Technique};
 use glam::Vec3;
 use illuminant_illumination::{Blurred, IlluminationModel, Prepare};
+use illuminant_optics::frame::Frame;
 use illuminant_sampling::Lanes;
 use illuminant_scene::{ConeIndex, Hit, LampForm, Leaves, Ray, Scene, SurfacePoint};
 use std::f32::consts::FRAC_2_SQRT_PI;
 
 /// The longest chain of rays where no depth is stated: only perfect mirrors that face each other would go on.
 const DEEPEST: u32 = 100;
+
+/// Rays along the edges of a square frustum about the mirror direction, with the weights of a Gaussian of which a half-width is `gloss`
+/// (Wallace et al. 1987; book 4.5.2): they add up to 1.
+fn frustum_about(to_viewer: Vec3, gloss: f32, edge: u32) -> Vec<(Vec3, f32)> {
+    let mirrored = Vec3::new(-to_viewer.x, -to_viewer.y, to_viewer.z);
+    let frame = Frame::from_normal(mirrored);
+    // Out to where the Gaussian is a hundredth.
+    let reach = (gloss * (100f32.ln() / 2f32.ln()).sqrt()).min(1.2).tan();
+    let place = |i: u32| reach * ((i as f32 + 0.5) * 2.0 / edge as f32 - 1.0);
+    let mut rays: Vec<(Vec3, f32)> = (0..edge * edge)
+        .map(|k| {
+            let (x, y) = (place(k % edge), place(k / edge));
+            let direction = frame.to_world(Vec3::new(x, y, 1.0).normalize());
+            let angle = x.hypot(y).atan();
+            // An equal part of the square is seen under cos³.
+            let part = (-(angle / gloss.max(1e-4)).powi(2) * 2f32.ln()).exp() * angle.cos().powi(3);
+            // What would go into the surface is lost to the rest.
+            (direction, if direction.z * to_viewer.z > 0.0 { part } else { 0.0 })
+        })
+        .collect();
+    let sum: f32 = rays.iter().map(|(_, part)| part).sum();
+    rays.retain(|(_, part)| *part > 0.0);
+    rays.iter_mut().for_each(|(_, part)| *part /= sum);
+    rays
+}
+
+/// What is followed beside a solution.
+#[derive(Clone, Copy, Debug)]
+struct Solved {
+    /// Which ways of light.
+    ways: Mechanisms,
+    /// Rays along an edge of the frustum in which gloss is sampled; by chance where there is none.
+    frustum: Option<u32>,
+    /// Whether lamps are asked for diffuse light too.
+    lamps: bool,
+}
 
 /// How trees of rays are followed.
 #[derive(Clone, Debug)]
@@ -41,6 +79,8 @@ pub(crate) struct RayTree {
     random: bool,
     /// What cones meet, where rays are cones.
     pub(crate) cones: Option<ConeIndex>,
+    /// What is followed where the light of diffuse surfaces has been solved for.
+    solved: Option<Solved>,
 }
 
 /// The middles of so many equal parts of a square.
@@ -100,9 +140,15 @@ impl RayTree {
     pub fn new(scene: &Scene, settings: &Settings, technique: Technique) -> Option<Self> {
         let distributed = match technique {
             Technique::Raytrace => false,
-            Technique::Distributed => true,
+            Technique::Distributed | Technique::Hybrid => true,
             _ => return None,
         };
+        let told = &settings.radiosity;
+        let solved = (technique == Technique::Hybrid).then(|| Solved {
+            ways: told.mechanisms,
+            frustum: told.frustum,
+            lamps: told.gather == Gather::Direct,
+        });
         let fixed = match settings.light_centres {
             LightCentres::Fixed(count) => Some(grid(count)),
             // A cone sees all of a lamp from its middle.
@@ -117,6 +163,7 @@ impl RayTree {
             distributed,
             fixed,
             random: settings.light_centres == LightCentres::Random,
+            solved,
             cones: settings.cones.then(|| ConeIndex::new(&scene.geometry, scene.camera.shutter[0])),
         })
     }
@@ -193,7 +240,8 @@ impl RayTree {
         branch: &Branch<N>,
     ) -> Primary {
         let (scene, pass) = (traced.scene, traced.pass);
-        for &lamp in &scene.surroundings {
+        let shows = branch.segment == 1 || self.solved.is_none_or(|s| s.ways.diffuse_to_specular);
+        for &lamp in scene.surroundings.iter().filter(|_| shows) {
             let data = &scene.lamps[lamp];
             let weight = match branch.lamps {
                 // What is all around is not asked.
@@ -225,7 +273,8 @@ impl RayTree {
         let object = &scene.objects[hit.object as usize];
         let lamp =
             object.lamp.filter(|&l| scene.lamps[l].emits(point.geometric_normal, branch.ray.direction));
-        if let Some(lamp) = lamp {
+        let shows = branch.segment == 1 || self.solved.is_none_or(|s| s.ways.diffuse_to_specular);
+        if let Some(lamp) = lamp.filter(|_| shows) {
             let weight = match branch.lamps {
                 Met::Seen => 1.0,
                 Met::Asked => 0.0,
@@ -279,7 +328,16 @@ impl RayTree {
         // Compiled once, not at every call.
         let model: &dyn IlluminationModel<N> = met.model();
         let glossy = self.distributed && model.follows_gloss();
-        if met.outside || !model.bounds_media() {
+        let first = branch.segment == 1;
+        let shows = first || self.solved.is_none_or(|s| s.ways.diffuse_to_specular);
+        let goes_on = first || self.solved.is_none_or(|s| s.ways.specular_to_specular);
+        if let Some(field) = pass.field.as_ref().filter(|_| shows) {
+            let surface = &scene.materials[scene.objects[hit.object as usize].material].surface;
+            let returned = diffuse_at(met.model(), &met.at, surface, Counted::Diffuse);
+            field.radiance(returned, hit, point, branch.ray.direction, |group, sent| {
+                traced.radiance[group] += branch.throughput * sent;
+            });
+        } else if pass.field.is_none() && (met.outside || !model.bounds_media()) {
             let returned = model.ambient(&met.at);
             for (sum, light) in traced.radiance.iter_mut().zip(&pass.ambient) {
                 *sum += branch.throughput * returned.diffuse * *light;
@@ -292,10 +350,13 @@ impl RayTree {
                 add_around(scene, pass, light, mirrored, model.gloss(), &weight, traced.radiance);
             }
         }
-        if model.is_continuous() {
+        if model.is_continuous() && shows {
             for lamp in 0..scene.lamps.len() {
                 self.ask(traced, branch, (hit.object, point), &met, lamp, glossy, sample, sequence);
             }
+        }
+        if !goes_on {
+            return;
         }
         let to_viewer = -branch.ray.direction;
         let mut go = |direction: Vec3,
@@ -352,7 +413,16 @@ impl RayTree {
             let weight = (lobe.weight, lobe.brightness);
             go(met.frame.to_world(direction), weight, lobe.transmitted, spread, lamps, traced.probe);
         }
-        if glossy {
+        let frustum = self.solved.and_then(|s| s.frustum).filter(|_| glossy);
+        if let Some(edge) = frustum {
+            for (local, part) in frustum_about(met.at.to_viewer, model.gloss(), edge) {
+                let weight = model.ambient(&met.at).specular * part;
+                // One number for all lanes: no surface returns more than all.
+                let brightness = part;
+                let spread = OF_LOBE * model.gloss() / edge as f32;
+                go(met.frame.to_world(local), (weight, brightness), false, spread, Met::Seen, traced.probe);
+            }
+        } else if glossy {
             let [u, v, choice, _] = sequence.next4();
             if let Some(drawn) = model.gloss_ray(&met.at, [u, v, choice]) {
                 let spread = drawn.pdf.map_or(0.0, |pdf| OF_LOBE * pdf.max(1e-3).sqrt().recip());
@@ -418,7 +488,13 @@ impl RayTree {
             Some(pdf) => found.specular * power_heuristic(pdf, model.pdf(&met.at, local)),
             None => found.specular,
         };
-        let f = found.diffuse + specular;
+        let f = match self.solved {
+            // In a frustum lamps that have a size are met.
+            Some(Solved { frustum: Some(_), .. }) if light.pdf.is_some() => Lanes::default(),
+            // What is diffuse has been solved for.
+            Some(Solved { lamps: false, .. }) => specular,
+            _ => found.diffuse + specular,
+        };
         if f.is_zero() {
             return;
         }

@@ -196,7 +196,7 @@ impl Render {
         let tile = if technique.is_scanline() { [u32::MAX, BAND] } else { [settings.tile.clamp(1, 4096); 2] };
         let film = Film::with_tiles(scene.camera.crop, tile, &settings, &names, basis.len());
         let solution = match (technique, solution) {
-            (Technique::Radiosity, None) => {
+            (technique, None) if technique.is_solved() => {
                 let solved = pool.install(|| RadiositySolution::new(&scene, &settings, Arc::clone(&basis)));
                 Some(Arc::new(solved.map_err(RenderError::Setting)?))
             }

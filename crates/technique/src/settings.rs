@@ -24,6 +24,8 @@ pub enum Technique {
     Path,
     /// Light between diffuse surfaces, solved for once (Goral et al. 1984).
     Radiosity,
+    /// The same by way of mirrors and glass too, and rays for what these show (Wallace et al. 1987).
+    Hybrid,
 }
 
 impl Technique {
@@ -36,7 +38,14 @@ impl Technique {
         Self::Distributed,
         Self::Path,
         Self::Radiosity,
+        Self::Hybrid,
     ];
+
+    /// Whether the light between surfaces is solved for before an image is made.
+    #[must_use]
+    pub fn is_solved(self) -> bool {
+        matches!(self, Self::Radiosity | Self::Hybrid)
+    }
 
     /// Whether images are made scanline by scanline, of light straight from lamps alone.
     #[must_use]
@@ -55,6 +64,7 @@ impl fmt::Display for Technique {
             Self::Distributed => "distributed",
             Self::Path => "path",
             Self::Radiosity => "radiosity",
+            Self::Hybrid => "hybrid",
         })
     }
 }
@@ -179,7 +189,7 @@ pub enum Layer {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
-    /// `constant`, `gouraud`, `phong`, `raytrace`, `distributed`, `path`, `radiosity`.
+    /// `constant`, `gouraud`, `phong`, `raytrace`, `distributed`, `path`, `radiosity`, `hybrid`.
     pub technique: String,
     /// `bouknight`, `phong`, … `general`.
     pub illumination: String,

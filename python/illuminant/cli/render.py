@@ -54,8 +54,8 @@ def render(
         typer.Option(
             "--technique",
             metavar="NAME",
-            help="How light is followed: constant, gouraud, phong (scanline), raytrace, distributed, path, radiosity "
-            "(path).",
+            help="How light is followed: constant, gouraud, phong (scanline), raytrace, distributed, path, radiosity, "
+            "hybrid (path).",
         ),
     ] = None,
     illumination: Annotated[
@@ -211,6 +211,22 @@ def render(
             help="What a pixel makes of radiosity: none shows it, direct asks lamps again, full looks around (none).",
         ),
     ] = None,
+    mechanisms: Annotated[
+        str | None,
+        typer.Option(
+            "--mechanisms",
+            metavar="A,B",
+            help="Ways of light that hybrid follows, arriving and reflected: dd, sd, ds, ss (all).",
+        ),
+    ] = None,
+    frustum: Annotated[
+        int | None,
+        typer.Option(
+            "--frustum",
+            metavar="N",
+            help="Rays along an edge of the frustum in which hybrid samples gloss (one ray, drawn).",
+        ),
+    ] = None,
     sampling: Annotated[
         str | None,
         typer.Option(
@@ -350,6 +366,8 @@ def render(
         "solver": solver,
         "light_samples": light_samples,
         "gather": gather,
+        "mechanisms": mechanisms,
+        "frustum": frustum,
     }
     with _Stop() as stop:
         from illuminant.rendering import Job

@@ -7,8 +7,15 @@ use illuminant_optics::frame::Frame;
 use illuminant_optics::hemisphere;
 use illuminant_radiosity::{Elements, Kronecker, Place};
 use illuminant_sampling::Lanes;
-use illuminant_scene::{LampForm, Ray, Scene};
+use illuminant_scene::{LampForm, LampSample, Ray, Scene, SurfacePoint};
 use std::f32::consts::PI;
+
+/// Whether nothing stands between a point and a lamp that it has asked.
+pub(super) fn is_lit(scene: &Scene, elements: &Elements, point: &SurfacePoint, light: &LampSample) -> bool {
+    let origin = point.offset(light.direction);
+    let (span, tfar) = way_to(origin, light.direction, light.target);
+    elements.is_free(&scene.geometry, origin, span, tfar)
+}
 
 /// The irradiance of a lamp at a place, from two numbers in [0, 1).
 pub(super) fn irradiance<const N: usize, M>(
@@ -34,9 +41,7 @@ pub(super) fn irradiance<const N: usize, M>(
     if cos <= 0.0 {
         return Lanes::default();
     }
-    let origin = place.point.offset(light.direction);
-    let (span, tfar) = way_to(origin, light.direction, light.target);
-    if !elements.is_free(&scene.geometry, origin, span, tfar) {
+    if !is_lit(scene, elements, &place.point, &light) {
         return Lanes::default();
     }
     pass.emission_to(scene, lamp, &light) * (light.scale * cos / light.pdf.unwrap_or(1.0))

@@ -1,6 +1,6 @@
 //! The solution in the lanes of a pass: irradiance anywhere on a surface.
 
-use super::reflectance::of_materials;
+use super::reflectance::{Counted, of_materials};
 use super::settings::Gather;
 use super::solution::RadiositySolution;
 use crate::lanes::Pass;
@@ -9,7 +9,8 @@ use glam::Vec3;
 use illuminant_illumination::{IlluminationModel, Prepare};
 use illuminant_radiosity::{Elements, Points};
 use illuminant_sampling::Lanes;
-use illuminant_scene::{Hit, Scene};
+use illuminant_scene::{Hit, Scene, SurfacePoint};
+use std::f32::consts::FRAC_1_PI;
 use std::sync::Arc;
 
 /// Irradiance at the corners of elements, for each group of lamps.
@@ -20,8 +21,10 @@ pub(crate) struct Field<const N: usize> {
     groups: usize,
     /// Of each side of surfaces the values at points: a bundle for each group.
     values: [Vec<Lanes<N>>; 2],
-    /// Of each material what it returns of even light.
-    pub reflectance: Vec<Lanes<N>>,
+    /// Of each material what it returns of even light, and lets through.
+    pub reflectance: Vec<[Lanes<N>; 2]>,
+    /// Whether what surfaces themselves reflect counts as diffuse.
+    pub counted: Counted,
 }
 
 impl<const N: usize> Field<N> {
@@ -71,7 +74,8 @@ impl<const N: usize> Field<N> {
             points: Arc::clone(&solution.points),
             groups,
             values,
-            reflectance: of_materials(scene, pass),
+            reflectance: of_materials(scene, pass, solution.counted),
+            counted: solution.counted,
         }
     }
 
@@ -80,28 +84,37 @@ impl<const N: usize> Field<N> {
         &self.elements
     }
 
-    /// The irradiance at a hit of a ray along `direction`, handed to `each` for each group; false where there is no solution.
+    /// The radiance that a surface sends back along a ray that has met it, handed to `each` for each group, of its reflectance and
+    /// transmittance; false where there is no solution.
     #[inline]
-    pub fn irradiance(
+    pub fn radiance(
         &self,
+        [reflectance, transmittance]: [Lanes<N>; 2],
         hit: &Hit,
-        position: Vec3,
-        (normal, direction): (Vec3, Vec3),
+        point: &SurfacePoint,
+        direction: Vec3,
         mut each: impl FnMut(usize, Lanes<N>),
     ) -> bool {
-        let Some((element, weights)) = self.elements.locate(hit, position) else { return false };
-        let back = normal.dot(direction) > 0.0;
+        let Some((element, weights)) = self.elements.locate(hit, point.position) else { return false };
+        let back = point.geometric_normal.dot(direction) > 0.0;
         if self.elements.side(element, back).is_none() {
             return false;
         }
         let points = self.points.of_element[element as usize];
-        let values = &self.values[usize::from(back)];
-        for group in 0..self.groups {
+        let through = !transmittance.is_zero();
+        let at = |back: bool, group: usize| {
             let mut sum = Lanes::default();
             for (point, weight) in points.into_iter().zip(weights) {
-                sum += values[point as usize * self.groups + group] * weight;
+                sum += self.values[usize::from(back)][point as usize * self.groups + group] * weight;
             }
-            each(group, sum);
+            sum
+        };
+        for group in 0..self.groups {
+            let mut sent = reflectance * at(back, group);
+            if through {
+                sent += transmittance * at(!back, group);
+            }
+            each(group, sent * FRAC_1_PI);
         }
         true
     }

@@ -11,10 +11,12 @@ mod reflectance;
 mod sensor;
 mod settings;
 mod solution;
+mod specular;
 mod view;
 
 pub(crate) use field::Field;
+pub(crate) use reflectance::{Counted, diffuse_at};
 pub use sensor::basis;
-pub use settings::{Gather, RadiositySettings};
+pub use settings::{Gather, Mechanisms, RadiositySettings};
 pub use solution::{RadiosityParts, RadiosityReport, RadiositySolution};
 pub(crate) use view::{View, seen};

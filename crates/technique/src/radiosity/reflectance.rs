@@ -10,6 +10,7 @@ use illuminant_optics::hemisphere;
 use illuminant_radiosity::{Elements, Kronecker};
 use illuminant_sampling::Lanes;
 use illuminant_scene::{Ray, Scene};
+use std::f32::consts::PI;
 
 /// Directions over which a model's reflectance is averaged.
 const DIRECTIONS: u64 = 64;
@@ -21,48 +22,84 @@ pub(crate) fn is_clear(surface: &Surface) -> bool {
     matches!(surface, Surface::Filter { .. } | Surface::Dielectric { .. })
 }
 
-/// The part of even light from everywhere that a surface returns on the same side: its bihemispherical reflectance.
-pub(super) fn of_model<const N: usize, M: IlluminationModel<N>>(
-    model: &M,
-    at: &Incidence<'_, N>,
-) -> Lanes<N> {
-    let sequence = Kronecker::<2>::new(0);
-    let mut sum = Lanes::default();
-    for k in 0..DIRECTIONS {
-        let at = Incidence { to_viewer: Vec3::from(hemisphere::cosine(sequence.point(k))), ..*at };
-        let found = model.ambient(&at);
-        sum += found.diffuse + found.specular;
-        for lobe in model.discrete_lobes(&at).into_iter().filter(|lobe| !lobe.transmitted) {
-            sum += lobe.weight;
-        }
-    }
-    (sum * (DIRECTIONS as f32).recip()).map(|r| r.min(1.0))
+/// Whether what a surface itself reflects counts as if it were diffuse too: where no rays follow it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Counted {
+    All,
+    Diffuse,
 }
 
-/// The reflectance of each material in the lanes of a pass.
+/// What a surface returns of diffuse light where it is seen: reflected, and let through from the other side.
+pub(crate) fn diffuse_at<const N: usize, M: IlluminationModel<N>>(
+    model: &M,
+    at: &Incidence<'_, N>,
+    surface: &Surface,
+    counted: Counted,
+) -> [Lanes<N>; 2] {
+    if matches!(surface, Surface::Translucent { .. }) {
+        let straight = Vec3::Z * 1f32.copysign(at.to_viewer.z);
+        // Lambert's law on either side.
+        return [straight, -straight].map(|l| model.eval(at, l) * PI);
+    }
+    let found = model.ambient(at);
+    let all = match counted {
+        Counted::All => found.diffuse + found.specular,
+        Counted::Diffuse => found.diffuse,
+    };
+    [all, Lanes::default()]
+}
+
+/// What a surface returns of even light from everywhere, as the mean over all directions in which it is returned: its bihemispherical
+/// reflectance and transmittance.
+fn of_model<const N: usize, M: IlluminationModel<N>>(
+    model: &M,
+    at: &Incidence<'_, N>,
+    surface: &Surface,
+    counted: Counted,
+) -> [Lanes<N>; 2] {
+    let sequence = Kronecker::<2>::new(0);
+    let mut sums = [Lanes::default(); 2];
+    for k in 0..DIRECTIONS {
+        let at = Incidence { to_viewer: Vec3::from(hemisphere::cosine(sequence.point(k))), ..*at };
+        let found = diffuse_at(model, &at, surface, counted);
+        sums.iter_mut().zip(found).for_each(|(sum, f)| *sum += f);
+        if counted == Counted::All {
+            for lobe in model.discrete_lobes(&at).into_iter().filter(|lobe| !lobe.transmitted) {
+                sums[0] += lobe.weight;
+            }
+        }
+    }
+    sums.map(|sum| (sum * (DIRECTIONS as f32).recip()).map(|r| r.min(1.0)))
+}
+
+/// The reflectance and transmittance of each material in the lanes of a pass.
 pub(super) fn of_materials<const N: usize, M: IlluminationModel<N> + Prepare>(
     scene: &Scene,
     pass: &Pass<N, M>,
-) -> Vec<Lanes<N>> {
+    counted: Counted,
+) -> Vec<[Lanes<N>; 2]> {
     let at = |material| Incidence {
         to_viewer: Vec3::Z,
         near: pass.index(None),
         far: pass.index(Some(material)),
         hero_lane: None,
     };
-    (0..scene.materials.len()).map(|m| of_model(&pass.materials[m], &at(m))).collect()
+    let of = |m: usize| of_model(&pass.materials[m], &at(m), &scene.materials[m].surface, counted);
+    (0..scene.materials.len()).map(of).collect()
 }
 
-/// The mean reflectance of a side whose material has images.
+/// The mean reflectance and transmittance of a side whose material has images.
 pub(super) fn of_textured_side<const N: usize, M: IlluminationModel<N> + Prepare>(
     scene: &Scene,
     elements: &Elements,
     pass: &Pass<N, M>,
     side: u32,
-) -> Lanes<N> {
+    counted: Counted,
+) -> [Lanes<N>; 2] {
     let sequence = Kronecker::<2>::new(u64::from(side) ^ 0x736b_696e);
     let element = elements.element_of(side);
-    let mut sum = Lanes::default();
+    let surface = &scene.materials[scene.objects[element.object as usize].material].surface;
+    let mut sums = [Lanes::default(); 2];
     for k in 0..PLACES {
         let place = elements.place(&scene.geometry, side, sequence.point(k));
         let ray = Ray { origin: place.point.position + place.normal, direction: -place.normal, time: 0.0 };
@@ -71,8 +108,8 @@ pub(super) fn of_textured_side<const N: usize, M: IlluminationModel<N> + Prepare
         let mut numbers = Sequence::new(0, u64::from(side), k, 0);
         let media = Media::default();
         let met = Interaction::new(scene, pass, &ray, &hit, &place.point, media, width, None, &mut numbers);
-        let found = met.model().ambient(&met.at);
-        sum += found.diffuse + found.specular;
+        let found = diffuse_at(met.model(), &met.at, surface, counted);
+        sums.iter_mut().zip(found).for_each(|(sum, f)| *sum += f);
     }
-    (sum * (PLACES as f32).recip()).map(|r| r.min(1.0))
+    sums.map(|sum| (sum * (PLACES as f32).recip()).map(|r| r.min(1.0)))
 }

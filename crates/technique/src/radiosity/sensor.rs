@@ -61,11 +61,8 @@ impl RadiositySolution {
                 let Some(side) = met.and_then(|(ray, hit)| self.elements.side_at(&ray, &hit)) else {
                     continue;
                 };
-                let side = side as usize;
-                let reflectance = &self.reflectance[side * self.samples..][..self.samples];
-                let irradiance = &self.irradiance[side * width..][..width];
-                for (i, (sum, e)) in sums.iter_mut().zip(irradiance).enumerate() {
-                    *sum += f64::from(reflectance[i % self.samples] * e) / f64::from(samples);
+                for (sum, sent) in sums.iter_mut().zip(self.radiosity_of(side)) {
+                    *sum += f64::from(sent) / f64::from(samples);
                 }
             }
             for column in 0..self.columns {
@@ -77,11 +74,26 @@ impl RadiositySolution {
         places.par_iter().enumerate().map(at).collect()
     }
 
+    /// The radiosity of a side for each column of lamps in every sample.
+    fn radiosity_of(&self, side: u32) -> Vec<f32> {
+        let width = self.columns * self.samples;
+        let sent = |side: u32, of: &[f32]| -> Vec<f32> {
+            let of = &of[side as usize * self.samples..][..self.samples];
+            let irradiance = &self.irradiance[side as usize * width..][..width];
+            irradiance.iter().enumerate().map(|(i, e)| of[i % self.samples] * e).collect()
+        };
+        let mut sum = sent(side, &self.reflectance);
+        if let Some(behind) = self.elements.opposite(side).filter(|_| !self.transmittance.is_empty()) {
+            // A sheet lets through from both sides alike.
+            sum.iter_mut().zip(sent(behind, &self.transmittance)).for_each(|(sum, v)| *sum += v);
+        }
+        sum
+    }
+
     /// XYZ of the radiance that sides send, emission along the normal included: a row for each side.
     #[must_use]
     pub fn radiance_of_sides(&self, scene: &Scene) -> Vec<[f64; 3]> {
         let light = self.light(scene);
-        let width = self.columns * self.samples;
         let maps: Vec<_> = (0..scene.lamps.len()).map(|lamp| self.basis.to_xyz(lamp)).collect();
         let lamp_of: Vec<usize> =
             (0..self.columns).map(|c| self.column_of.iter().position(|&of| of == c).unwrap_or(0)).collect();
@@ -92,12 +104,10 @@ impl RadiositySolution {
                 let mut add = |lamp: usize, samples: &[f64]| {
                     xyz.iter_mut().zip(xyz_by(&maps[lamp], samples)).for_each(|(sum, v)| *sum += v);
                 };
-                let reflectance = &self.reflectance[side * self.samples..][..self.samples];
-                for column in 0..self.columns {
-                    let own = &self.irradiance[side * width + column * self.samples..][..self.samples];
-                    let sent = own.iter().zip(reflectance).zip(&light[column]);
-                    let sent: Vec<f64> =
-                        sent.map(|((e, r), l)| f64::from(e * r * l) / std::f64::consts::PI).collect();
+                let sent = self.radiosity_of(side as u32);
+                for (column, sent) in sent.chunks(self.samples).enumerate() {
+                    let sent = sent.iter().zip(&light[column]);
+                    let sent: Vec<f64> = sent.map(|(b, l)| f64::from(b * l) / std::f64::consts::PI).collect();
                     add(lamp_of[column], &sent);
                 }
                 let element = self.elements.element_of(side as u32);

@@ -16,6 +16,32 @@ pub enum Gather {
     Full,
 }
 
+/// The ways of light of `hybrid` (book figure 4.27), each of which can be left out to see its part: how light arrives, and how it is
+/// reflected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Mechanisms {
+    /// From diffuse surfaces and lamps, to diffuse light: form factors.
+    pub diffuse_to_diffuse: bool,
+    /// By way of mirrors and glass, to diffuse light: extended form factors.
+    pub specular_to_diffuse: bool,
+    /// From diffuse surfaces and lamps, mirrored or let through to the eye.
+    pub diffuse_to_specular: bool,
+    /// By way of mirrors and glass, mirrored or let through to the eye.
+    pub specular_to_specular: bool,
+}
+
+impl Default for Mechanisms {
+    fn default() -> Self {
+        Self {
+            diffuse_to_diffuse: true,
+            specular_to_diffuse: true,
+            diffuse_to_specular: true,
+            specular_to_specular: true,
+        }
+    }
+}
+
 /// What radiosity is told.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -36,6 +62,11 @@ pub struct RadiositySettings {
     pub light_samples: u32,
     /// What a pixel makes of the solution.
     pub gather: Gather,
+    /// Which ways of light `hybrid` follows.
+    pub mechanisms: Mechanisms,
+    /// Rays along an edge of the frustum about the mirror direction, in which `hybrid` samples what rough surfaces mirror (Wallace et al.
+    /// 1987); none draws one ray by chance.
+    pub frustum: Option<u32>,
 }
 
 impl Default for RadiositySettings {
@@ -49,6 +80,8 @@ impl Default for RadiositySettings {
             tolerance: 1e-5,
             light_samples: 64,
             gather: Gather::None,
+            mechanisms: Mechanisms::default(),
+            frustum: None,
         }
     }
 }
@@ -76,6 +109,9 @@ impl RadiositySettings {
         }
         if !(1..=65536).contains(&self.light_samples) {
             return Err(format!("light samples must be 1 to 65536, not {}", self.light_samples));
+        }
+        if self.frustum.is_some_and(|n| !(2..=32).contains(&n)) {
+            return Err("frustum must be 2 to 32 rays along an edge".into());
         }
         Ok((self.form_factors.parse()?, self.solver.parse()?))
     }

@@ -1,15 +1,17 @@
 //! The solution of a scene: irradiance of all sides for one unit of light from each lamp.
 
 use super::direct;
-use super::reflectance::{is_clear, of_materials, of_textured_side};
+use super::reflectance::{Counted, is_clear, of_materials, of_textured_side};
 use super::settings::RadiositySettings;
+use super::specular::{Followed, Scratch, Seen};
 use crate::lanes::Pass;
 use crate::passes::{Light, passes_of};
-use crate::settings::Settings;
+use crate::settings::{Settings, Technique};
 use glam::Vec3;
-use illuminant_illumination::{General, Historic, Illumination, IlluminationModel, Prepare};
+use illuminant_illumination::{General, Historic, Illumination, IlluminationModel, Prepare, Surface};
 use illuminant_radiosity::{
-    Elements, FormFactors, Looking, Points, Problem, Refinement, Sparse, Subdivision, reached,
+    Elements, FormFactors, Looking, Method, Part, Points, Problem, Refinement, Sparse, SpectralRows,
+    Subdivision, reached,
 };
 use illuminant_sampling::{Basis, Role};
 use illuminant_scene::Scene;
@@ -68,8 +70,14 @@ pub struct RadiositySolution {
     pub columns: usize,
     /// Whether a column is for light of 1 in every sample; otherwise it is for what its lamps give.
     pub per_unit: bool,
+    /// Form factors by way of mirrors and glass, where those are followed.
+    pub specular: Option<Arc<SpectralRows>>,
+    /// Whether what surfaces themselves reflect counts as diffuse: where it is not followed.
+    pub(crate) counted: Counted,
     /// Of each side the reflectance in every sample.
     pub reflectance: Vec<f32>,
+    /// Of each side the transmittance in every sample; nothing where no surface lets light through diffusely.
+    pub transmittance: Vec<f32>,
     /// Of each side, for each column, the irradiance straight from lamps in every sample.
     pub direct: Vec<f32>,
     /// The same with what other surfaces send.
@@ -84,17 +92,33 @@ pub struct RadiosityParts {
     /// The rows of form factors.
     pub rows: Sparse,
     /// As in [`RadiositySolution`].
+    pub specular: Option<SpectralRows>,
+    /// As in [`RadiositySolution`].
     pub direct: Vec<f32>,
     /// As in [`RadiositySolution`].
     pub irradiance: Vec<f32>,
     /// As in [`RadiositySolution`].
     pub reflectance: Vec<f32>,
+    /// As in [`RadiositySolution`].
+    pub transmittance: Vec<f32>,
 }
 
-/// Of each object whether it takes part in the exchange of light between diffuse surfaces.
-fn takes_part(scene: &Scene) -> Vec<bool> {
-    let part = |o: &illuminant_scene::Object| !is_clear(&scene.materials[o.material].surface);
+/// What each object is to the exchange of light: where mirrors and glass are followed, what has nothing diffuse stands apart.
+fn parts(scene: &Scene, counted: Counted) -> Vec<Part> {
+    let part = |o: &illuminant_scene::Object| match (&scene.materials[o.material].surface, counted) {
+        (surface, Counted::All) if is_clear(surface) => Part::Clear,
+        (
+            Surface::Filter { .. } | Surface::Dielectric { .. } | Surface::Conductor { .. },
+            Counted::Diffuse,
+        ) => Part::Apart,
+        _ => Part::Surface,
+    };
     scene.objects.iter().map(part).collect()
+}
+
+/// Whether what surfaces themselves reflect counts as diffuse, for a technique.
+fn counted(settings: &Settings) -> Counted {
+    if settings.technique == Technique::Hybrid.to_string() { Counted::Diffuse } else { Counted::All }
 }
 
 /// A generic step, for the illumination model that settings name.
@@ -168,15 +192,20 @@ impl RadiositySolution {
     /// Bytes that it takes.
     #[must_use]
     pub fn memory(&self) -> usize {
-        self.factors.rows.memory() + 4 * (self.direct.len() + self.irradiance.len() + self.reflectance.len())
+        let specular = self.specular.as_ref().map_or(0, |rows| rows.memory());
+        self.factors.rows.memory()
+            + specular
+            + 4 * (self.direct.len() + self.irradiance.len() + self.reflectance.len())
     }
 
-    fn problem<'a>(&'a self, reflectance: &'a [f32], direct: &'a [f32], tolerance: f64) -> Problem<'a> {
+    fn problem(&self, tolerance: f64) -> Problem<'_> {
         Problem {
             elements: &self.elements,
             factors: &self.factors,
-            reflectance,
-            direct,
+            specular: self.specular.as_deref(),
+            reflectance: &self.reflectance,
+            transmittance: &self.transmittance,
+            direct: &self.direct,
             samples: self.samples,
             tolerance,
         }
@@ -214,7 +243,7 @@ fn refined<M: IlluminationModel<LANES> + Prepare>(
     mut elements: Elements,
     passes: &[Pass<LANES, M>],
     threshold: f64,
-    (takes_part, patch, lit): (&[bool], f64, &dyn Fn(usize, bool) -> bool),
+    (parts, patch, lit): (&[Part], f64, &dyn Fn(usize, bool) -> bool),
     most: usize,
 ) -> Elements {
     let smallest = elements.all.iter().map(|e| e.area).fold(0.0, f64::max) / 64.0;
@@ -264,7 +293,7 @@ fn refined<M: IlluminationModel<LANES> + Prepare>(
         }
         let mut subdivision: Subdivision = elements.subdivision.clone();
         cut.into_iter().for_each(|node| subdivision.bisect(node));
-        elements = Elements::of(&scene.geometry, subdivision, takes_part, patch, lit);
+        elements = Elements::of(&scene.geometry, subdivision, parts, patch, lit);
     }
     elements
 }
@@ -272,32 +301,36 @@ fn refined<M: IlluminationModel<LANES> + Prepare>(
 /// The elements of a scene.
 fn cut<M: IlluminationModel<LANES> + Prepare>(
     scene: &Scene,
-    told: &RadiositySettings,
+    (told, counted): (&RadiositySettings, Counted),
     passes: &[Pass<LANES, M>],
 ) -> Result<Elements, String> {
     let (geometry, lamps) = (&*scene.geometry, scene.lamps.len());
-    let takes_part = takes_part(scene);
-    let whole = Elements::of(geometry, Subdivision::new(geometry), &takes_part, f64::INFINITY, &|_, _| true);
+    let parts = parts(scene, counted);
+    let whole = Elements::of(geometry, Subdivision::new(geometry), &parts, f64::INFINITY, &|_, _| true);
     let total = whole.total_area();
     if total <= 0.0 {
-        return Err("radiosity needs a surface that is not transparent: the scene has none".into());
+        return Err("radiosity needs a surface that is diffuse: the scene has none".into());
     }
     let coarse = Refinement { element: total / COARSE, patch: f64::INFINITY };
-    let coarse = Elements::new(geometry, &takes_part, coarse, &|_, _| true);
-    let lit = reached(geometry, &coarse, &|side| {
+    let coarse = Elements::new(geometry, &parts, coarse, &|_, _| true);
+    let is_sheet = |o: &illuminant_scene::Object| {
+        matches!(scene.materials[o.material].surface, Surface::Translucent { .. })
+    };
+    let sheets: Vec<bool> = scene.objects.iter().map(is_sheet).collect();
+    let lit = reached(geometry, &coarse, &sheets, &|side| {
         (0..lamps).any(|lamp| !direct::mean(scene, &coarse, &passes[0], lamp, side, 4).is_zero())
     });
     let lit = |object: usize, back: bool| lit[object][usize::from(back)];
     // A cut halves, so elements end between half the limit and the limit: three quarters of it on average.
     let element = total / (0.75 * f64::from(told.elements));
     let patch = told.patches.map_or(0.0, |patches| total / (0.75 * f64::from(patches)));
-    let mut elements = Elements::new(geometry, &takes_part, Refinement { element, patch }, &lit);
+    let mut elements = Elements::new(geometry, &parts, Refinement { element, patch }, &lit);
     if let Some(threshold) = told.adaptive {
         let most = 16 * told.elements as usize;
-        elements = refined(scene, elements, passes, threshold, (&takes_part, patch, &lit), most);
+        elements = refined(scene, elements, passes, threshold, (&parts, patch, &lit), most);
     }
     if elements.sides.is_empty() {
-        return Err("no light reaches any surface that is not transparent".into());
+        return Err("no light reaches any surface that is diffuse".into());
     }
     Ok(elements)
 }
@@ -329,7 +362,8 @@ fn solve<M: IlluminationModel<LANES> + Prepare>(
     let mut clock = Instant::now();
     let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
     let (passes, column_of, columns) = prepared::<M>(illumination, scene, &*basis);
-    let elements = cut(scene, told, &passes)?;
+    let counted = counted(settings);
+    let elements = cut(scene, (told, counted), &passes)?;
     let points = Points::new(&scene.geometry, &elements);
     let (samples, sides) = (basis.len(), elements.sides.len());
     let report = RadiosityReport {
@@ -346,7 +380,10 @@ fn solve<M: IlluminationModel<LANES> + Prepare>(
         column_of,
         columns,
         per_unit: scene.lamps.len() <= MOST_LAMPS,
+        specular: None,
+        counted,
         reflectance: Vec::new(),
+        transmittance: Vec::new(),
         direct: Vec::new(),
         irradiance: Vec::new(),
         report,
@@ -358,24 +395,35 @@ fn solve<M: IlluminationModel<LANES> + Prepare>(
             && parts.rows.width == found.elements.patches.len()
             && parts.direct.len() == sides * columns * samples
             && parts.irradiance.len() == parts.direct.len()
-            && parts.reflectance.len() == sides * samples;
+            && parts.reflectance.len() == sides * samples
+            && (parts.transmittance.is_empty() || parts.transmittance.len() == sides * samples)
+            && parts
+                .specular
+                .as_ref()
+                .is_none_or(|rows| rows.starts.len() == sides + 1 && rows.samples == samples);
         if !fits {
             return Err(
                 "the solution does not fit its scene: it was made by another version, or is damaged".into()
             );
         }
         found.factors = Arc::new(FormFactors::from_rows(parts.rows));
-        (found.direct, found.irradiance, found.reflectance) =
-            (parts.direct, parts.irradiance, parts.reflectance);
+        found.specular = parts.specular.map(Arc::new);
+        (found.direct, found.irradiance) = (parts.direct, parts.irradiance);
+        (found.reflectance, found.transmittance) = (parts.reflectance, parts.transmittance);
     } else {
         let of_lamps = (&found.column_of[..], columns);
         found.direct = direct_light(scene, &found.elements, &passes, of_lamps, samples, told.light_samples);
-        found.reflectance = reflectances(scene, &found.elements, &passes, samples);
+        (found.reflectance, found.transmittance) =
+            reflectances(scene, &found.elements, &passes, samples, counted);
         found.report.seconds[1] = lap();
-        found.factors = Arc::new(FormFactors::new(&scene.geometry, &found.elements, method));
+        match counted {
+            Counted::All => {
+                found.factors = Arc::new(FormFactors::new(&scene.geometry, &found.elements, method));
+            }
+            Counted::Diffuse => found.look_around(scene, settings, &passes, method)?,
+        }
         found.report.seconds[2] = lap();
-        let problem = found.problem(&found.reflectance, &found.direct, told.tolerance);
-        let solved = problem.solve(solver).map_err(|e| e.to_string())?;
+        let solved = found.problem(told.tolerance).solve(solver).map_err(|e| e.to_string())?;
         (found.irradiance, found.report.history) = (solved.irradiance, solved.history);
         found.report.seconds[3] = lap();
     }
@@ -389,8 +437,52 @@ impl RadiositySolution {
         self.report.factors = self.factors.rows.values.len();
         self.report.closure = self.factors.closure();
         self.report.reciprocity = self.factors.reciprocity(&self.elements);
-        self.report.imbalance =
-            self.problem(&self.reflectance, &self.direct, 1e-5).imbalance(&self.irradiance);
+        self.report.imbalance = self.problem(1e-5).imbalance(&self.irradiance);
+    }
+
+    /// Finds form factors by way of mirrors and glass too, and adds the light of lamps that comes so.
+    fn look_around<M: IlluminationModel<LANES> + Prepare>(
+        &mut self,
+        scene: &Scene,
+        settings: &Settings,
+        passes: &[Pass<LANES, M>],
+        method: Method,
+    ) -> Result<(), String> {
+        let looking = Looking::new(method).ok_or_else(|| {
+            format!("hybrid follows rays from mirror to mirror, and {method} has none: use rays or hemicube")
+        })?;
+        let (elements, mechanisms) = (Arc::clone(&self.elements), settings.radiosity.mechanisms);
+        let followed = Followed {
+            scene,
+            elements: &elements,
+            passes,
+            looking: &looking,
+            threshold: settings.threshold as f32,
+            column_of: &self.column_of,
+            columns: self.columns,
+            samples: self.samples,
+            straight: mechanisms.diffuse_to_diffuse,
+            specular: mechanisms.specular_to_diffuse,
+        };
+        let patches = elements.patches.len();
+        let seen: Vec<Seen> = (0..elements.sides.len() as u32)
+            .into_par_iter()
+            .map_init(|| Scratch::new(patches), |scratch, side| followed.look(side, scratch))
+            .collect();
+        if !mechanisms.diffuse_to_diffuse {
+            self.direct.fill(0.0);
+        }
+        let (mut straight, mut specular) = (Vec::with_capacity(seen.len()), Vec::with_capacity(seen.len()));
+        let width = self.columns * self.samples;
+        for (direct, seen) in self.direct.chunks_mut(width.max(1)).zip(seen) {
+            direct.iter_mut().zip(&seen.lamps).for_each(|(sum, v)| *sum += v);
+            straight.push(seen.straight);
+            specular.push((seen.columns, seen.values));
+        }
+        self.factors = Arc::new(FormFactors::from_rows(Sparse::from_rows(&straight, patches)));
+        let specular = SpectralRows::from_rows(&specular, self.samples);
+        self.specular = (!specular.columns.is_empty()).then(|| Arc::new(specular));
+        Ok(())
     }
 }
 
@@ -404,15 +496,12 @@ fn repaint<M: IlluminationModel<LANES> + Prepare>(
     let start = Instant::now();
     let (passes, ..) = prepared::<M>(illumination, scene, &*old.basis);
     let mut found = old.clone();
-    found.reflectance = reflectances(scene, &old.elements, &passes, old.samples);
-    let solved = found
-        .problem(&found.reflectance, &old.direct, settings.radiosity.tolerance)
-        .solve(solver)
-        .map_err(|e| e.to_string())?;
+    (found.reflectance, found.transmittance) =
+        reflectances(scene, &old.elements, &passes, old.samples, old.counted);
+    let solved = found.problem(settings.radiosity.tolerance).solve(solver).map_err(|e| e.to_string())?;
     (found.irradiance, found.report.history) = (solved.irradiance, solved.history);
     found.report.seconds = [0.0, 0.0, 0.0, start.elapsed().as_secs_f64()];
-    found.report.imbalance =
-        found.problem(&found.reflectance, &found.direct, 1e-5).imbalance(&found.irradiance);
+    found.report.imbalance = found.problem(1e-5).imbalance(&found.irradiance);
     Ok(found)
 }
 
@@ -448,10 +537,10 @@ fn shift<M: IlluminationModel<LANES> + Prepare>(
     let mut clock = Instant::now();
     let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
     let (passes, ..) = prepared::<M>(illumination, scene, &*old.basis);
-    let elements = cut(scene, told, &passes)?;
-    let looking = Looking::new(method);
+    let elements = cut(scene, (told, old.counted), &passes)?;
+    let looking = Looking::new(method).filter(|_| old.specular.is_none());
     let (Some(looking), true) = (looking, elements.is_alike(&old.elements)) else {
-        // Elements are others, or there are no rays whose ways could be compared: all is new.
+        // Elements are others, or ways of rays cannot be compared: all is new.
         let basis = Arc::clone(&old.basis);
         let found = solve::<M>(illumination, scene, settings, basis, None)?;
         let sides = found.elements.sides.len();
@@ -470,36 +559,43 @@ fn shift<M: IlluminationModel<LANES> + Prepare>(
     found.report.seconds[2] = lap();
     found.points = Arc::new(Points::new(&scene.geometry, &elements));
     (found.elements, found.factors) = (Arc::new(elements), Arc::new(factors));
-    let solved = found
-        .problem(&found.reflectance, &found.direct, told.tolerance)
-        .solve(solver)
-        .map_err(|e| e.to_string())?;
+    let solved = found.problem(told.tolerance).solve(solver).map_err(|e| e.to_string())?;
     (found.irradiance, found.report.history) = (solved.irradiance, solved.history);
     found.report.seconds[3] = lap();
     found.judge();
     Ok((found, again))
 }
 
-/// Of each side the reflectance in every sample.
+/// Of each side the reflectance in every sample, and the transmittance, if any surface has one.
 fn reflectances<M: IlluminationModel<LANES> + Prepare>(
     scene: &Scene,
     elements: &Elements,
     passes: &[Pass<LANES, M>],
     samples: usize,
-) -> Vec<f32> {
-    let of_materials: Vec<_> = passes.iter().map(|pass| of_materials(scene, pass)).collect();
-    let mut found = vec![0f32; elements.sides.len() * samples];
-    found.par_chunks_mut(samples).enumerate().for_each(|(side, row)| {
+    counted: Counted,
+) -> (Vec<f32>, Vec<f32>) {
+    let of_materials: Vec<_> = passes.iter().map(|pass| of_materials(scene, pass, counted)).collect();
+    let mut found = vec![0f32; 2 * elements.sides.len() * samples];
+    found.par_chunks_mut(2 * samples).enumerate().for_each(|(side, rows)| {
         let object = elements.element_of(side as u32).object;
         let material = scene.objects[object as usize].material;
+        let (reflected, transmitted) = rows.split_at_mut(samples);
         for (pass, of_materials) in passes.iter().zip(&of_materials) {
-            let lanes = if scene.skins[material].colour.is_some() || scene.skins[material].slope.is_some() {
-                of_textured_side(scene, elements, pass, side as u32)
+            let skin = &scene.skins[material];
+            let [r, t] = if skin.colour.is_some() || skin.slope.is_some() {
+                of_textured_side(scene, elements, pass, side as u32, counted)
             } else {
                 of_materials[material]
             };
-            row[pass.samples.clone()].copy_from_slice(&lanes.0[..pass.samples.len()]);
+            reflected[pass.samples.clone()].copy_from_slice(&r.0[..pass.samples.len()]);
+            transmitted[pass.samples.clone()].copy_from_slice(&t.0[..pass.samples.len()]);
         }
     });
-    found
+    let rows = found.chunks(samples);
+    let reflected: Vec<f32> = rows.clone().step_by(2).flatten().copied().collect();
+    let mut transmitted: Vec<f32> = rows.skip(1).step_by(2).flatten().copied().collect();
+    if transmitted.iter().all(|t| *t == 0.0) {
+        transmitted.clear();
+    }
+    (reflected, transmitted)
 }

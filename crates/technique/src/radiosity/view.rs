@@ -2,7 +2,7 @@
 
 use super::direct;
 use super::field::Field;
-use super::reflectance::is_clear;
+use super::reflectance::{diffuse_at, is_clear};
 use super::settings::Gather;
 use crate::interaction::Interaction;
 use crate::lanes::Pass;
@@ -24,7 +24,7 @@ pub(crate) fn seen<const N: usize, M: IlluminationModel<N> + Prepare>(
     (ray, hit, point): (&Ray, &Hit, &SurfacePoint),
     width: f32,
     sequence: &mut Sequence,
-) -> (Lanes<N>, Vec3) {
+) -> ([Lanes<N>; 2], Vec3) {
     let material = scene.objects[hit.object as usize].material;
     let towards = |normal: Vec3| if normal.dot(ray.direction) > 0.0 { -normal } else { normal };
     if scene.skins[material].is_bare() {
@@ -32,8 +32,8 @@ pub(crate) fn seen<const N: usize, M: IlluminationModel<N> + Prepare>(
     }
     let media = Media::default();
     let met = Interaction::new(scene, pass, ray, hit, point, media, width, None, sequence);
-    let found = met.model().ambient(&met.at);
-    (found.diffuse + found.specular, towards(met.normal))
+    let surface = &scene.materials[material].surface;
+    (diffuse_at(met.model(), &met.at, surface, field.counted), towards(met.normal))
 }
 
 /// How the camera sees a solution between diffuse surfaces: the first surface that is not transparent.
@@ -85,17 +85,19 @@ impl View {
         let width = distance * OF_PIXEL * scene.camera.pixel_angle();
         if let Some(field) = &pass.field {
             let (reflectance, normal) = seen(scene, pass, field, (&ray, &hit, &point), width, &mut sequence);
-            let brdf = reflectance * FRAC_1_PI;
-            let sides = (point.geometric_normal, ray.direction);
-            field.irradiance(&hit, point.position, sides, |group, irradiance| {
-                radiance[group] += brdf * irradiance;
-            });
+            field.radiance(reflectance, &hit, &point, ray.direction, |group, sent| radiance[group] += sent);
             if self.direct {
                 let place = Place { point, normal };
                 for lamp in 0..scene.lamps.len() {
                     let [u, v, ..] = sequence.next4();
-                    let light = direct::irradiance(scene, field.elements(), pass, lamp, &place, [u, v]);
-                    radiance[group_of[lamp]] += brdf * light;
+                    let from = |place: &Place| {
+                        direct::irradiance(scene, field.elements(), pass, lamp, place, [u, v]) * FRAC_1_PI
+                    };
+                    radiance[group_of[lamp]] += reflectance[0] * from(&place);
+                    if !reflectance[1].is_zero() {
+                        let behind = Place { normal: -normal, ..place };
+                        radiance[group_of[lamp]] += reflectance[1] * from(&behind);
+                    }
                 }
             }
         }
