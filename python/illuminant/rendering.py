@@ -450,6 +450,7 @@ def render(
     gather: str | None = None,
     mechanisms: str | Sequence[str] | None = None,
     frustum: int | None = None,
+    cube: int | None = None,
     progress: OnProgress | None = None,
     on_partial: Callable[[Image], object] | None = None,
 ) -> Image:
@@ -491,7 +492,8 @@ def render(
             polygon shaded once in a pixel, so that one sample does.
         infinite: what they hold at infinity: `eye`, `lights` or both; default neither.
         subdivide: area in pixels above which they subdivide polygons; default never.
-        elements: about how many elements `radiosity` cuts surfaces into; default 6000.
+        elements: about how many elements `radiosity` cuts surfaces into; default 6000, of
+            `specular-radiosity` 1000.
         patches: about how many patches these make, which send light on; default one for each element.
         adaptive: fraction by which direct light may differ about an element before it is cut again; default never.
         form_factors: how they are found; default `rays:1024`, or `hemicube:N`, `scanline:N`, `area:N`.
@@ -503,6 +505,7 @@ def render(
             (d diffuse, s specular); default all.
         frustum: rays along an edge of the frustum in which `hybrid` samples what rough surfaces mirror; default one
             ray, drawn.
+        cube: cells along an edge of the cubes into which each patch of `specular-radiosity` sends light; default 32.
         progress: called about ten times a second with a `Progress`; returning False ends the render with what
             is done.
         on_partial: called after each range with the image so far.
@@ -558,6 +561,7 @@ def render(
         gather=gather,
         mechanisms=mechanisms,
         frustum=frustum,
+        cube=cube,
     )
     _log_warnings(job)
     for _ in job.passes(progress):

@@ -250,6 +250,11 @@ class Render(Table):
         "5",
         None,
     )
+    cube: Annotated[int, Field(ge=4, le=256)] | None = key(
+        "cells along an edge of the cubes into which each patch of `specular-radiosity` sends light",
+        "50",
+        None,
+    )
     exposure: Positive | None = key("factor from luminance in cd/m² to the display's 0 to 1", "0.01", None)
     filter: Filter | None = key("reconstruction filter", '{ kind = "gaussian", radius = 1.5 }', None)
 

@@ -44,11 +44,14 @@ SCANLINE = ("constant", "gouraud", "phong")
 RAY_TREES = ("raytrace", "distributed", "hybrid")
 """The techniques that follow trees of rays."""
 
-SOLVED = ("radiosity", "hybrid")
+SOLVED = ("radiosity", "specular-radiosity", "hybrid")
 """The techniques that solve for the light between surfaces first."""
 
 SOLVERS = ("bicgstab", "gauss-seidel", "gauss", "progressive")
 GATHERS = ("none", "direct", "full")
+ELEMENTS_WITH_DIRECTIONS = 1000
+"""About how many elements `specular-radiosity` has if nothing is said."""
+
 MECHANISMS = ("dd", "sd", "ds", "ss")
 """The ways of light of `hybrid`: how it arrives, diffuse or specular, and how it is reflected (book figure 4.27)."""
 FORM_FACTORS = {"rays": 1024, "hemicube": 64, "scanline": 64, "area": 16}
@@ -116,6 +119,7 @@ class Settings:
         light_samples: at how many places of an element each lamp is asked.
         gather: what a pixel makes of the solution: `none` shows it, `direct` asks lamps again, `full` looks around.
         mechanisms: ways of light that `hybrid` follows: `dd`, `sd`, `ds`, `ss`.
+        cube: cells along an edge of the cubes into which each patch of `specular-radiosity` sends light.
         frustum: rays along an edge of the frustum in which `hybrid` samples gloss; None draws one ray.
     """
 
@@ -154,6 +158,7 @@ class Settings:
     gather: str = "none"
     mechanisms: tuple[str, ...] = MECHANISMS
     frustum: int | None = None
+    cube: int = 32
 
     @property
     def replicates(self) -> int:
@@ -207,6 +212,7 @@ class Settings:
                         "specular_to_specular": "ss" in self.mechanisms,
                     },
                     "frustum": self.frustum,
+                    "cube": self.cube,
                 },
             }
         )
@@ -241,6 +247,7 @@ class Settings:
             "gather": self.gather,
             **({"mechanisms": ",".join(self.mechanisms)} if self.mechanisms != MECHANISMS else {}),
             **({} if self.frustum is None else {"frustum": self.frustum}),
+            **({"cube": self.cube} if self.technique == "specular-radiosity" else {}),
         }
 
     def _ray_trees(self) -> dict[str, Any]:
@@ -282,10 +289,19 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
     if limit and given.get("samples") is None:
         chosen["samples"] = None
     chosen |= {name: value for name, value in given.items() if value is not None}
-    for name, technique in (("caustics", "path"), ("cones", "raytrace")):
+    technique = chosen.get("technique", Settings.technique)
+    for name, techniques in (
+        ("caustics", ("path",)),
+        ("cones", ("raytrace",)),
+        ("frustum", ("hybrid",)),
+        ("gather", ("radiosity", "hybrid")),
+    ):
         # What a scene wants of its own technique is nothing to another.
-        if given.get(name) is None and chosen.get("technique", Settings.technique) != technique:
+        if given.get(name) is None and technique not in techniques:
             chosen.pop(name, None)
+    if technique == "specular-radiosity":
+        # Each patch has thousands of directions.
+        chosen.setdefault("elements", ELEMENTS_WITH_DIRECTIONS)
     if chosen.get("cones") and given.get("samples") is None:
         # They are all the same.
         chosen["samples"] = 1
@@ -354,6 +370,7 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         ("patches", 1, 4_000_000),
         ("light_samples", 1, 65536),
         ("frustum", 2, 32),
+        ("cube", 4, 256),
     ):
         if chosen.get(name) is not None:
             chosen[name] = _whole(name, chosen[name], least, most)

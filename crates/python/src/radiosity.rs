@@ -51,6 +51,18 @@ fn threes(values: Vec<[f64; 3]>) -> PyResult<Array2<f64>> {
     shaped(Array2::from_shape_vec((values.len(), 3), values.into_iter().flatten().collect()))
 }
 
+impl PySolution {
+    /// Refuses what needs irradiance where there is none.
+    fn irradiance(&self) -> PyResult<()> {
+        if self.0.is_directional() {
+            return Err(wrong(
+                "specular-radiosity keeps radiance and no irradiance: it can be rendered, and nothing else",
+            ));
+        }
+        Ok(())
+    }
+}
+
 #[pymethods]
 impl PySolution {
     /// Solves for the light between the surfaces of a scene.
@@ -93,6 +105,7 @@ impl PySolution {
         let parts = RadiosityParts {
             rows: Sparse { starts, columns, values, width },
             specular,
+            caustics: flat(parts, "caustics")?,
             transmittance: flat(parts, "transmittance")?,
             direct: flat(parts, "direct")?,
             irradiance: flat(parts, "irradiance")?,
@@ -107,6 +120,7 @@ impl PySolution {
 
     /// What of it cannot be found again without much work.
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.irradiance()?;
         let dict = PyDict::new(py);
         let rows = &self.0.factors.rows;
         dict.set_item("starts", PyArray1::from_iter(py, rows.starts.iter().map(|v| *v as u64)))?;
@@ -116,6 +130,7 @@ impl PySolution {
         dict.set_item("direct", self.0.direct.to_pyarray(py))?;
         dict.set_item("irradiance", self.0.irradiance.to_pyarray(py))?;
         dict.set_item("reflectance", self.0.reflectance.to_pyarray(py))?;
+        dict.set_item("caustics", self.0.caustics.to_pyarray(py))?;
         dict.set_item("transmittance", self.0.transmittance.to_pyarray(py))?;
         if let Some(rows) = &self.0.specular {
             let starts = rows.starts.iter().map(|v| *v as u64);
@@ -128,6 +143,7 @@ impl PySolution {
 
     /// The solution of the same surfaces with the materials of another scene.
     fn repainted(&self, py: Python<'_>, scene: &PyScene, settings: &str) -> PyResult<Self> {
+        self.irradiance()?;
         let (settings, scene) = (self::settings(settings)?, Arc::clone(&scene.0));
         py.detach(|| solved(self.0.repainted(&scene, &settings)))
     }
@@ -141,6 +157,7 @@ impl PySolution {
         settings: &str,
         objects: Vec<usize>,
     ) -> PyResult<(Self, usize)> {
+        self.irradiance()?;
         let settings = self::settings(settings)?;
         let (before, scene) = (Arc::clone(&before.0), Arc::clone(&scene.0));
         let (found, rows) =
@@ -157,6 +174,7 @@ impl PySolution {
         normals: PyReadonlyArray2<'_, f64>,
         samples: u32,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.irradiance()?;
         let vectors = |array: &PyReadonlyArray2<'_, f64>| -> PyResult<Vec<Vec3>> {
             let view = array.as_array();
             if view.ncols() != 3 {
@@ -178,6 +196,7 @@ impl PySolution {
     /// The elements as a mesh: `positions` and `normals` of its points; for each side that light reaches `faces` (three points),
     /// `objects`, `areas`, `patches`; and `xyz`, what points send as front and as back of the surface, (2, points, 3).
     fn mesh<'py>(&self, py: Python<'py>, scene: &PyScene) -> PyResult<Bound<'py, PyDict>> {
+        self.irradiance()?;
         let (solution, scene) = (&self.0, Arc::clone(&scene.0));
         let elements = &solution.elements;
         let sent = py.detach(|| solution.radiance_of_sides(&scene));
@@ -231,6 +250,7 @@ impl PySolution {
         dict.set_item("closure_worst", report.closure[1])?;
         dict.set_item("reciprocity", report.reciprocity)?;
         dict.set_item("imbalance", report.imbalance)?;
+        dict.set_item("creation", report.creation)?;
         dict.set_item("history", report.history.clone())?;
         dict.set_item("seconds_cutting", report.seconds[0])?;
         dict.set_item("seconds_direct", report.seconds[1])?;

@@ -2,7 +2,7 @@
 
 use crate::participating::MediumLanes;
 use crate::passes::Light;
-use crate::radiosity::Field;
+use crate::radiosity::{Directional, Field};
 use crate::sequence::Sequence;
 use crate::skins::{Mixture, SkinLanes};
 use crate::wavelength::Wavelength;
@@ -11,6 +11,7 @@ use illuminant_illumination::{Illumination, IlluminationModel, Index, Prepare, R
 use illuminant_sampling::{Basis, Lanes, Role};
 use illuminant_scene::{LampForm, LampSample, Scene, TexturePoint};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The index of refraction of a medium.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +51,8 @@ pub struct Pass<const N: usize, M> {
     pub(crate) skins: Vec<Option<SkinLanes<N, M>>>,
     /// The radiance that stands for all light that is not followed, of each group of lamps; empty where all is followed.
     pub ambient: Vec<Lanes<N>>,
+    /// What patches send into all directions, if that has been solved for.
+    pub(crate) directional: Option<Arc<Directional>>,
     /// The solution of radiosity, if there is one.
     pub(crate) field: Option<Field<N>>,
     /// What is in the air, if anything.
@@ -143,6 +146,7 @@ impl<const N: usize, M: Prepare> Pass<N, M> {
                 })
                 .collect(),
             ambient: Vec::new(),
+            directional: None,
             field: None,
             medium: scene.medium.as_ref().map(|m| MediumLanes::new(m, basis, samples.clone(), range)),
             emission: emission.collect(),

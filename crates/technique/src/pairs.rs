@@ -1,5 +1,6 @@
 //! Which technique goes with which illumination model (book table 4.1, section 4.7).
 
+use crate::radiosity::Gather;
 use crate::settings::{Settings, Shading, Shadows, Technique};
 use illuminant_illumination::{CoefficientCurves, Illumination, Surface};
 use illuminant_optics::distribution::Distribution;
@@ -72,10 +73,14 @@ pub fn pair(technique: Technique, illumination: Illumination) -> Pair {
         (T::Hybrid, I::General) => Pair::Sensible(
             "all light between surfaces is solved for, by way of mirrors and glass too, and rays follow what these show",
         ),
-        (T::Radiosity | T::Hybrid, I::Bouknight) => {
+        (T::SpecularRadiosity, I::General) => Pair::Sensible(
+            "every patch sends light into every direction as its model says; memory and time grow with patches times \
+             directions",
+        ),
+        (T::Radiosity | T::SpecularRadiosity | T::Hybrid, I::Bouknight) => {
             Pair::Warned("what is not diffuse is lost: metal and glass return less light than they receive")
         }
-        (T::Radiosity | T::Hybrid, _) => Pair::Refused(
+        (T::Radiosity | T::SpecularRadiosity | T::Hybrid, _) => Pair::Refused(
             "the model can return more light than it receives, and what surfaces send each other again and again would \
              grow; use general or bouknight, or path, which warns",
         ),
@@ -158,11 +163,23 @@ pub fn check_shading(
     Ok(())
 }
 
-/// Refuses cones, and paths from lamps, where they have no meaning.
+/// Refuses cones, paths from lamps, and what belongs to solutions, where they have no meaning.
 ///
 /// # Errors
 /// The reason.
 pub fn check_rays(scene: &Scene, settings: &Settings, technique: Technique) -> Result<(), String> {
+    if settings.radiosity.gather != Gather::None
+        && !matches!(technique, Technique::Radiosity | Technique::Hybrid)
+    {
+        return Err(format!(
+            "gather goes with radiosity and hybrid, whose irradiance it takes; {technique} has none"
+        ));
+    }
+    if settings.radiosity.frustum.is_some() && technique != Technique::Hybrid {
+        return Err(format!(
+            "a frustum goes with hybrid alone, whose gloss it samples; {technique} does not"
+        ));
+    }
     if settings.cones && technique != Technique::Raytrace {
         return Err(format!("cones go with raytrace alone, whose rays they widen; {technique} has others"));
     }

@@ -169,7 +169,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
         let mut tracer = match RayTree::new(scene, settings, technique) {
             _ if technique.is_solved() && gather == Gather::Full => paths,
             Some(tree) => Tracer::Trees(tree),
-            None if technique == Technique::Radiosity => Tracer::Solution(View::new(gather)),
+            None if technique.is_solved() => Tracer::Solution(View::new(gather)),
             None => paths,
         };
         let passes = |basis: &dyn Basis, companion| {
@@ -180,6 +180,10 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Passes<N, M> {
             }
             if let Some(solution) = solution {
                 for pass in &mut all {
+                    pass.directional.clone_from(&solution.directional);
+                    if pass.directional.is_some() {
+                        continue;
+                    }
                     pass.field = Some(Field::new(solution, scene, pass, group_of, settings));
                 }
             }

@@ -164,8 +164,17 @@ struct State<const N: usize> {
     scattered_first: bool,
     /// Whether any surface did.
     looks_around: bool,
+    /// Whether a diffuse surface was the first that did, so that what lamps send it by way of others is known.
+    from_diffuse: bool,
+    /// Whether the path has met another since.
+    by_way: bool,
     /// Whether what a lamp sends along the path is found from the lamp.
     from_lamps: bool,
+}
+
+/// Whether all that a surface returns is diffuse.
+fn is_diffuse(surface: &Surface) -> bool {
+    matches!(surface, Surface::Diffuse { .. } | Surface::Translucent { .. })
 }
 
 impl PathTracer {
@@ -195,6 +204,8 @@ impl PathTracer {
             draws: None,
             scattered_first: false,
             looks_around: false,
+            from_diffuse: false,
+            by_way: false,
             from_lamps: false,
         };
         for segment in 1..=self.depth {
@@ -231,7 +242,9 @@ impl PathTracer {
                 }
             }
             let Some((hit, point, distance)) = met else {
-                self.add_surroundings(scene, pass, group_of, &path, radiance);
+                if !path.by_way {
+                    self.add_surroundings(scene, pass, group_of, &path, radiance);
+                }
                 primary.emits |= segment == 1 && !scene.surroundings.is_empty();
                 break;
             };
@@ -239,9 +252,8 @@ impl PathTracer {
             let object = &scene.objects[hit.object as usize];
             let before = if P::VERTICES { sum(radiance) } else { Lanes::default() };
             let arriving = path.light.throughput;
-            if let Some(lamp) =
-                object.lamp.filter(|&l| scene.lamps[l].emits(point.geometric_normal, path.ray.direction))
-            {
+            let emits = |l: &usize| scene.lamps[*l].emits(point.geometric_normal, path.ray.direction);
+            if let Some(lamp) = object.lamp.filter(emits).filter(|_| !path.by_way) {
                 let weight = self.weight_of_hit(scene, &path, lamp, &hit, &point)
                     * scene.lamps[lamp].relative_radiance(point.geometric_normal, path.ray.direction);
                 radiance[path.light.bundle + group_of[lamp]] +=
@@ -292,20 +304,26 @@ impl PathTracer {
         sequence: &mut Sequence,
         radiance: &mut [Lanes<N>],
     ) -> bool {
-        let Some(field) = pass.field.as_ref().filter(|_| path.looks_around) else { return false };
+        let Some(field) = &pass.field else { return false };
         let material = scene.objects[hit.object as usize].material;
-        let surface = &scene.materials[material].surface;
-        // Nearer than the solution is detailed the path itself knows better.
-        if !matches!(surface, Surface::Diffuse { .. } | Surface::Translucent { .. })
-            || distance < field.detail(hit, point.position)
-        {
+        if !is_diffuse(&scene.materials[material].surface) {
             return false;
         }
-        let (reflectance, _) =
-            radiosity::seen(scene, pass, field, (&path.ray, hit, point), path.cone[0], sequence);
-        field.radiance(reflectance, hit, point, path.ray.direction, |group, sent| {
+        let seen = |sequence: &mut Sequence| {
+            radiosity::seen(scene, pass, field, (&path.ray, hit, point), path.cone[0], sequence).0
+        };
+        let mut add = |group: usize, sent: Lanes<N>| {
             radiance[path.light.bundle + group] += path.light.throughput * sent;
-        })
+        };
+        if !path.looks_around {
+            if field.has_caustics() {
+                field.caustic(seen(sequence), hit, point, path.ray.direction, &mut add);
+            }
+            return false;
+        }
+        // Nearer than the solution is detailed the path itself knows better.
+        distance >= field.detail(hit, point.position)
+            && field.radiance(seen(sequence), hit, point, path.ray.direction, &mut add)
     }
 
     /// Asks a lamp, then draws the next direction; whether the path goes on.
@@ -357,6 +375,11 @@ impl PathTracer {
         path.scattered_first |= segment == 1 && !gathers;
         path.from_lamps = gathers && path.scattered_first;
         path.ray = Ray { origin: point.offset(direction), direction, time: path.ray.time };
+        if let Some(field) = &pass.field {
+            let surface = &scene.materials[scene.objects[hit.object as usize].material].surface;
+            path.by_way |= path.from_diffuse;
+            path.from_diffuse |= !path.looks_around && is_diffuse(surface) && field.has_caustics();
+        }
         path.looks_around |= drawn.pdf.is_some();
         path.origin = drawn.pdf.map(|pdf| (point.position, met.normal, pdf));
         // A drawn direction stands for 1/pdf of solid angle.
@@ -395,14 +418,17 @@ impl PathTracer {
         if outward * local.z <= 0.0 {
             return;
         }
-        let f = model.eval(at, local);
+        // Of what the surface itself sends on from a lamp to a diffuse surface all is known.
+        let known = path.from_diffuse;
+        let f = if known { model.components(at, local).diffuse } else { model.eval(at, local) };
         if f.is_zero() {
             return;
         }
         let mut weight = light.scale * local.z.abs() / probability;
         if let Some(pdf) = light.pdf {
             let pdf = pdf * probability;
-            weight = light.scale * local.z.abs() / pdf * power_heuristic(pdf, model.pdf(at, local));
+            let other = if known { 0.0 } else { model.pdf(at, local) };
+            weight = light.scale * local.z.abs() / pdf * power_heuristic(pdf, other);
         }
         let origin = point.offset(light.direction);
         let (span, tfar) = way_to(origin, light.direction, light.target);

@@ -24,6 +24,8 @@ pub enum Technique {
     Path,
     /// Light between diffuse surfaces, solved for once (Goral et al. 1984).
     Radiosity,
+    /// The same with what every patch sends into every direction (Immel et al. 1986).
+    SpecularRadiosity,
     /// The same by way of mirrors and glass too, and rays for what these show (Wallace et al. 1987).
     Hybrid,
 }
@@ -38,13 +40,14 @@ impl Technique {
         Self::Distributed,
         Self::Path,
         Self::Radiosity,
+        Self::SpecularRadiosity,
         Self::Hybrid,
     ];
 
     /// Whether the light between surfaces is solved for before an image is made.
     #[must_use]
     pub fn is_solved(self) -> bool {
-        matches!(self, Self::Radiosity | Self::Hybrid)
+        matches!(self, Self::Radiosity | Self::SpecularRadiosity | Self::Hybrid)
     }
 
     /// Whether images are made scanline by scanline, of light straight from lamps alone.
@@ -64,6 +67,7 @@ impl fmt::Display for Technique {
             Self::Distributed => "distributed",
             Self::Path => "path",
             Self::Radiosity => "radiosity",
+            Self::SpecularRadiosity => "specular-radiosity",
             Self::Hybrid => "hybrid",
         })
     }
@@ -189,7 +193,7 @@ pub enum Layer {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
-    /// `constant`, `gouraud`, `phong`, `raytrace`, `distributed`, `path`, `radiosity`, `hybrid`.
+    /// `constant`, `gouraud`, `phong`, `raytrace`, `distributed`, `path`, `radiosity`, `specular-radiosity`, `hybrid`.
     pub technique: String,
     /// `bouknight`, `phong`, … `general`.
     pub illumination: String,

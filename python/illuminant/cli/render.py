@@ -55,7 +55,7 @@ def render(
             "--technique",
             metavar="NAME",
             help="How light is followed: constant, gouraud, phong (scanline), raytrace, distributed, path, radiosity, "
-            "hybrid (path).",
+            "specular-radiosity, hybrid (path).",
         ),
     ] = None,
     illumination: Annotated[
@@ -227,6 +227,14 @@ def render(
             help="Rays along an edge of the frustum in which hybrid samples gloss (one ray, drawn).",
         ),
     ] = None,
+    cube: Annotated[
+        int | None,
+        typer.Option(
+            "--cube",
+            metavar="N",
+            help="Cells along an edge of the cubes into which patches of specular-radiosity send light (32).",
+        ),
+    ] = None,
     sampling: Annotated[
         str | None,
         typer.Option(
@@ -368,6 +376,7 @@ def render(
         "gather": gather,
         "mechanisms": mechanisms,
         "frustum": frustum,
+        "cube": cube,
     }
     with _Stop() as stop:
         from illuminant.rendering import Job

@@ -77,7 +77,8 @@ impl Directional {
         for (point, weight) in self.points.of_element[element as usize].into_iter().zip(weights) {
             let (near, shares) = self.points.weights.row(point as usize);
             // What lies on the other side, or is not solved for, leaves its share to the rest.
-            let sides = near.iter().zip(shares).filter_map(|(&e, &w)| Some((self.elements.side(e, back)?, w)));
+            let sides =
+                near.iter().zip(shares).filter_map(|(&e, &w)| Some((self.elements.side(e, back)?, w)));
             let all: f32 = sides.clone().map(|(_, w)| w).sum();
             for (side, share) in sides {
                 for (cell, part) in about {
@@ -182,11 +183,7 @@ fn facing(scene: &Scene, elements: &Elements) -> Vec<Facing> {
         let normal = if elements.sides[side as usize].back { -element.normal } else { element.normal };
         let material = scene.objects[element.object as usize].material;
         let key = (material, (normal * 1e5).round().as_ivec3().to_array());
-        found
-            .entry(key)
-            .or_insert_with(|| Facing { material, normal, sides: Vec::new() })
-            .sides
-            .push(side);
+        found.entry(key).or_insert_with(|| Facing { material, normal, sides: Vec::new() }).sides.push(side);
     }
     found.into_values().collect()
 }
@@ -223,13 +220,7 @@ struct Solver<'a, M> {
 }
 
 impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
-    fn solve(
-        &mut self,
-        settings: &Settings,
-        facing: &[Facing],
-        to: &mut Directional,
-        quality: &mut Quality,
-    ) {
+    fn solve(&mut self, settings: &Settings, facing: &[Facing], to: &mut Directional, quality: &mut Quality) {
         let (cells, groups) = (self.cube.len(), self.groups);
         let sides = self.elements.sides.len();
         let told = &settings.radiosity;
@@ -267,10 +258,8 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
                     let area = self.elements.area(side);
                     let old = &mut sent[side as usize * cells * groups..][..cells * groups];
                     for (old, new) in old.iter_mut().zip(&new) {
-                        let (a, b): (f32, f32) = (
-                            (0..LANES).map(|i| (old.0[i] - new.0[i]).abs()).sum(),
-                            new.0.iter().sum(),
-                        );
+                        let (a, b): (f32, f32) =
+                            ((0..LANES).map(|i| (old.0[i] - new.0[i]).abs()).sum(), new.0.iter().sum());
                         changed += area * f64::from(a);
                         all += area * f64::from(b);
                     }
@@ -353,7 +342,14 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
     }
 
     /// The light that comes to a side through a cell: of other surfaces' reflection, and of lamps and surroundings that are seen there.
-    fn arriving(&self, side: u32, cell: usize, direction: Vec3, sent: &[Lanes<LANES>], each: &mut dyn FnMut(usize, Lanes<LANES>, Lanes<LANES>)) {
+    fn arriving(
+        &self,
+        side: u32,
+        cell: usize,
+        direction: Vec3,
+        sent: &[Lanes<LANES>],
+        each: &mut dyn FnMut(usize, Lanes<LANES>, Lanes<LANES>),
+    ) {
         let seen = self.seen[side as usize * self.cube.len() + cell];
         if seen == NOTHING {
             for &lamp in &self.scene.surroundings {
@@ -447,7 +443,8 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
         }
         let mut creation = f64::NEG_INFINITY;
         for group in 0..groups {
-            let factor = owed[group].zip(went[group], |o, w| if w > 0.0 { (o / w).clamp(0.0, 4.0) } else { 1.0 });
+            let factor =
+                owed[group].zip(went[group], |o, w| if w > 0.0 { (o / w).clamp(0.0, 4.0) } else { 1.0 });
             for cell in 0..cells {
                 new[cell * groups + group] *= factor;
             }
@@ -475,8 +472,7 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
     /// The irradiance of a side by what others reflect, without lamps.
     fn others(&self, side: u32, sent: &[Lanes<LANES>], wanted: usize) -> Lanes<LANES> {
         let element = self.elements.element_of(side);
-        let normal =
-            if self.elements.sides[side as usize].back { -element.normal } else { element.normal };
+        let normal = if self.elements.sides[side as usize].back { -element.normal } else { element.normal };
         let (mut sum, mut whole) = (Lanes::default(), 0.0);
         for cell in 0..self.cube.len() {
             let direction = self.cube.direction(cell, [0.5; 2]);
@@ -494,14 +490,7 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
     }
 
     /// Adds the highlights of lamps that have no size, which no cell sees.
-    fn highlights(
-        &self,
-        side: u32,
-        model: &M,
-        material: usize,
-        frame: &Frame,
-        new: &mut [Lanes<LANES>],
-    ) {
+    fn highlights(&self, side: u32, model: &M, material: usize, frame: &Frame, new: &mut [Lanes<LANES>]) {
         if !model.follows_gloss() {
             return;
         }

@@ -9,7 +9,7 @@ use glam::Vec3;
 use illuminant_illumination::{IlluminationModel, Prepare};
 use illuminant_radiosity::{Elements, Points};
 use illuminant_sampling::Lanes;
-use illuminant_scene::{Hit, Scene, SurfacePoint};
+use illuminant_scene::{Hit, LampForm, Scene, SurfacePoint};
 use std::f32::consts::FRAC_1_PI;
 use std::sync::Arc;
 
@@ -21,6 +21,8 @@ pub(crate) struct Field<const N: usize> {
     groups: usize,
     /// Of each side of surfaces the values at points: a bundle for each group.
     values: [Vec<Lanes<N>>; 2],
+    /// The same of light of lamps that came by way of mirrors and glass, where paths leave that out.
+    caustics: Option<[Vec<Lanes<N>>; 2]>,
     /// Of each material what it returns of even light, and lets through.
     pub reflectance: Vec<[Lanes<N>; 2]>,
     /// Whether what surfaces themselves reflect counts as diffuse.
@@ -44,19 +46,15 @@ impl<const N: usize> Field<N> {
             group[column] = group_of[lamp];
         }
         let own = pass.own_samples();
-        let without_lamps = settings.radiosity.gather == Gather::Direct;
-        let values = [false, true].map(|back| {
-            // Of each side the light of all columns in the lanes of this pass, group by group.
+        // Of each side the light of all columns in the lanes of this pass, group by group, and from that of points.
+        let at_points = |back: bool, of: &(dyn Fn(usize) -> f32 + Sync)| -> Vec<Lanes<N>> {
             let sums: Vec<f32> = (0..solution.elements.sides.len())
                 .flat_map(|side| {
-                    let all = &solution.irradiance[side * width..][..width];
-                    let direct = &solution.direct[side * width..][..width];
                     let mut sums = vec![0f32; groups * N];
                     for column in 0..solution.columns {
                         for (lane, sample) in own.clone().enumerate() {
                             let at = column * samples + sample;
-                            let less = if without_lamps { direct[at] } else { 0.0 };
-                            sums[group[column] * N + lane] += (all[at] - less) * light[column][sample];
+                            sums[group[column] * N + lane] += of(side * width + at) * light[column][sample];
                         }
                     }
                     sums
@@ -68,12 +66,24 @@ impl<const N: usize> Field<N> {
             };
             let flat = solution.points.values(groups * N, &of);
             flat.chunks(N).map(|v| Lanes::from_fn(|i| v[i])).collect()
-        });
+        };
+        let less = |at: usize| match settings.radiosity.gather {
+            // Lamps are asked again.
+            Gather::Direct => solution.direct[at] - solution.caustics.get(at).copied().unwrap_or(0.0),
+            _ => 0.0,
+        };
+        let values = [false, true].map(|back| at_points(back, &|at| solution.irradiance[at] - less(at)));
+        // What is all around can only be met by chance, so that a path cannot leave it out by halves.
+        let known = settings.radiosity.gather == Gather::Full
+            && !solution.caustics.is_empty()
+            && !scene.lamps.iter().any(|lamp| matches!(lamp.form, LampForm::Uniform));
+        let caustics = known.then(|| [false, true].map(|back| at_points(back, &|at| solution.caustics[at])));
         Self {
             elements: Arc::clone(&solution.elements),
             points: Arc::clone(&solution.points),
             groups,
             values,
+            caustics,
             reflectance: of_materials(scene, pass, solution.counted),
             counted: solution.counted,
         }
@@ -93,6 +103,38 @@ impl<const N: usize> Field<N> {
         hit: &Hit,
         point: &SurfacePoint,
         direction: Vec3,
+        each: impl FnMut(usize, Lanes<N>),
+    ) -> bool {
+        self.sent(&self.values, [reflectance, transmittance], hit, point, direction, each)
+    }
+
+    /// Whether paths leave out light of lamps that comes to diffuse surfaces by way of mirrors and glass.
+    pub fn has_caustics(&self) -> bool {
+        self.caustics.is_some()
+    }
+
+    /// The part of that radiance which lamps make by way of mirrors and glass.
+    pub fn caustic(
+        &self,
+        returned: [Lanes<N>; 2],
+        hit: &Hit,
+        point: &SurfacePoint,
+        direction: Vec3,
+        each: impl FnMut(usize, Lanes<N>),
+    ) {
+        if let Some(values) = &self.caustics {
+            self.sent(values, returned, hit, point, direction, each);
+        }
+    }
+
+    #[inline]
+    fn sent(
+        &self,
+        values: &[Vec<Lanes<N>>; 2],
+        [reflectance, transmittance]: [Lanes<N>; 2],
+        hit: &Hit,
+        point: &SurfacePoint,
+        direction: Vec3,
         mut each: impl FnMut(usize, Lanes<N>),
     ) -> bool {
         let Some((element, weights)) = self.elements.locate(hit, point.position) else { return false };
@@ -105,7 +147,7 @@ impl<const N: usize> Field<N> {
         let at = |back: bool, group: usize| {
             let mut sum = Lanes::default();
             for (point, weight) in points.into_iter().zip(weights) {
-                sum += self.values[usize::from(back)][point as usize * self.groups + group] * weight;
+                sum += values[usize::from(back)][point as usize * self.groups + group] * weight;
             }
             sum
         };

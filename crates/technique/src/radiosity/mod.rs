@@ -6,7 +6,9 @@
 //! that other lamps are a matter of multiplying.
 
 mod direct;
+mod directional;
 mod field;
+mod global_cube;
 mod reflectance;
 mod sensor;
 mod settings;
@@ -14,6 +16,7 @@ mod solution;
 mod specular;
 mod view;
 
+pub(crate) use directional::Directional;
 pub(crate) use field::Field;
 pub(crate) use reflectance::{Counted, diffuse_at};
 pub use sensor::basis;

@@ -67,6 +67,8 @@ pub struct RadiositySettings {
     /// Rays along an edge of the frustum about the mirror direction, in which `hybrid` samples what rough surfaces mirror (Wallace et al.
     /// 1987); none draws one ray by chance.
     pub frustum: Option<u32>,
+    /// Cells along an edge of the cubes of `specular-radiosity`.
+    pub cube: u32,
 }
 
 impl Default for RadiositySettings {
@@ -82,6 +84,7 @@ impl Default for RadiositySettings {
             gather: Gather::None,
             mechanisms: Mechanisms::default(),
             frustum: None,
+            cube: 32,
         }
     }
 }
@@ -109,6 +112,9 @@ impl RadiositySettings {
         }
         if !(1..=65536).contains(&self.light_samples) {
             return Err(format!("light samples must be 1 to 65536, not {}", self.light_samples));
+        }
+        if !(4..=256).contains(&self.cube) {
+            return Err(format!("a cube must have 4 to 256 cells along an edge, not {}", self.cube));
         }
         if self.frustum.is_some_and(|n| !(2..=32).contains(&n)) {
             return Err("frustum must be 2 to 32 rays along an edge".into());

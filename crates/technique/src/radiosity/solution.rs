@@ -1,11 +1,12 @@
 //! The solution of a scene: irradiance of all sides for one unit of light from each lamp.
 
 use super::direct;
+use super::directional::{self, Directional};
 use super::reflectance::{Counted, is_clear, of_materials, of_textured_side};
 use super::settings::RadiositySettings;
 use super::specular::{Followed, Scratch, Seen};
 use crate::lanes::Pass;
-use crate::passes::{Light, passes_of};
+use crate::passes::{Light, group_lamps, passes_of};
 use crate::settings::{Settings, Technique};
 use glam::Vec3;
 use illuminant_illumination::{General, Historic, Illumination, IlluminationModel, Prepare, Surface};
@@ -47,6 +48,8 @@ pub struct RadiosityReport {
     pub history: Vec<f64>,
     /// The part of all light that is neither absorbed nor leaves.
     pub imbalance: f64,
+    /// The most by which what leaves a patch exceeds what arrives, as a part of it, where that is solved for in all directions.
+    pub creation: f64,
     /// Seconds for cutting surfaces, direct light, form factors, and solving.
     pub seconds: [f64; 4],
 }
@@ -80,8 +83,12 @@ pub struct RadiositySolution {
     pub transmittance: Vec<f32>,
     /// Of each side, for each column, the irradiance straight from lamps in every sample.
     pub direct: Vec<f32>,
+    /// The part of it that came by way of mirrors and glass; nothing where that is not followed.
+    pub caustics: Vec<f32>,
     /// The same with what other surfaces send.
     pub irradiance: Vec<f32>,
+    /// What patches send into all directions, where that has been solved for instead.
+    pub(crate) directional: Option<Arc<Directional>>,
     /// How it came about.
     pub report: RadiosityReport,
 }
@@ -93,6 +100,8 @@ pub struct RadiosityParts {
     pub rows: Sparse,
     /// As in [`RadiositySolution`].
     pub specular: Option<SpectralRows>,
+    /// As in [`RadiositySolution`].
+    pub caustics: Vec<f32>,
     /// As in [`RadiositySolution`].
     pub direct: Vec<f32>,
     /// As in [`RadiositySolution`].
@@ -189,13 +198,19 @@ impl RadiositySolution {
         scene.lamps.iter().map(|lamp| reduce(&lamp.spectrum)).collect()
     }
 
+    /// Whether it holds what patches send into all directions, and no irradiance.
+    #[must_use]
+    pub fn is_directional(&self) -> bool {
+        self.directional.is_some()
+    }
+
     /// Bytes that it takes.
     #[must_use]
     pub fn memory(&self) -> usize {
         let specular = self.specular.as_ref().map_or(0, |rows| rows.memory());
-        self.factors.rows.memory()
-            + specular
-            + 4 * (self.direct.len() + self.irradiance.len() + self.reflectance.len())
+        let directional = self.directional.as_ref().map_or(0, |sent| sent.memory());
+        let values = self.direct.len() + self.caustics.len() + self.irradiance.len() + self.reflectance.len();
+        self.factors.rows.memory() + specular + directional + 4 * values
     }
 
     fn problem(&self, tolerance: f64) -> Problem<'_> {
@@ -335,6 +350,12 @@ fn cut<M: IlluminationModel<LANES> + Prepare>(
     Ok(elements)
 }
 
+/// How many groups of lamps there are that share a map to XYZ, and the group of each lamp.
+pub(super) fn columns_of(scene: &Scene, basis: &dyn Basis) -> (usize, Vec<usize>) {
+    let (groups, group_of) = group_lamps(basis, scene.lamps.len(), false);
+    (groups.len(), group_of)
+}
+
 /// The passes for solving, with the column of each lamp and how many there are.
 fn prepared<M: Prepare>(
     illumination: Illumination,
@@ -385,17 +406,29 @@ fn solve<M: IlluminationModel<LANES> + Prepare>(
         reflectance: Vec::new(),
         transmittance: Vec::new(),
         direct: Vec::new(),
+        caustics: Vec::new(),
         irradiance: Vec::new(),
+        directional: None,
         report,
         basis,
     };
     found.report.seconds[0] = lap();
+    if settings.technique == Technique::SpecularRadiosity.to_string() {
+        let (elements, points) = (Arc::clone(&found.elements), Arc::clone(&found.points));
+        let (sent, quality) =
+            directional::solve::<M>(illumination, scene, settings, &*found.basis, &elements, &points)?;
+        found.directional = Some(Arc::new(sent));
+        (found.report.history, found.report.creation) = (quality.history, quality.creation);
+        found.report.seconds[3] = lap();
+        return Ok(found);
+    }
     if let Some(parts) = parts {
         let fits = parts.rows.height() == sides
             && parts.rows.width == found.elements.patches.len()
             && parts.direct.len() == sides * columns * samples
             && parts.irradiance.len() == parts.direct.len()
             && parts.reflectance.len() == sides * samples
+            && (parts.caustics.is_empty() || parts.caustics.len() == parts.direct.len())
             && (parts.transmittance.is_empty() || parts.transmittance.len() == sides * samples)
             && parts
                 .specular
@@ -408,6 +441,7 @@ fn solve<M: IlluminationModel<LANES> + Prepare>(
         }
         found.factors = Arc::new(FormFactors::from_rows(parts.rows));
         found.specular = parts.specular.map(Arc::new);
+        found.caustics = parts.caustics;
         (found.direct, found.irradiance) = (parts.direct, parts.irradiance);
         (found.reflectance, found.transmittance) = (parts.reflectance, parts.transmittance);
     } else {
@@ -476,6 +510,7 @@ impl RadiositySolution {
         let width = self.columns * self.samples;
         for (direct, seen) in self.direct.chunks_mut(width.max(1)).zip(seen) {
             direct.iter_mut().zip(&seen.lamps).for_each(|(sum, v)| *sum += v);
+            self.caustics.extend(&seen.lamps);
             straight.push(seen.straight);
             specular.push((seen.columns, seen.values));
         }

@@ -83,6 +83,10 @@ impl View {
             radiance[group_of[lamp]] += pass.emission[lamp] * relative;
         }
         let width = distance * OF_PIXEL * scene.camera.pixel_angle();
+        if let Some(sent) = &pass.directional {
+            let each = |group, light| radiance[group] += light;
+            sent.radiance(&hit, &point, ray.direction, pass.own_samples(), each);
+        }
         if let Some(field) = &pass.field {
             let (reflectance, normal) = seen(scene, pass, field, (&ray, &hit, &point), width, &mut sequence);
             field.radiance(reflectance, &hit, &point, ray.direction, |group, sent| radiance[group] += sent);
