@@ -21,6 +21,7 @@ import os
 import statistics
 import sys
 import tempfile
+import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -200,14 +201,60 @@ def radiance_rows(room: Room, peer: Path, runs: int, processes: int) -> list[Row
     return list(rows.values())
 
 
-def illuminant_rows(room: Room) -> list[Row]:
+RADIOSITY = {
+    "1,500 elements, 256 rays": {"elements": 1500, "form_factors": "rays:256", "sensors": 256},
+    "6,000 elements, 256 rays": {"elements": 6000, "form_factors": "rays:256", "sensors": 512},
+    "12,000 elements, 256 rays": {"elements": 12000, "form_factors": "rays:256", "sensors": 1024},
+    "24,000 elements, 512 rays": {"elements": 24000, "form_factors": "rays:512", "sensors": 4096},
+}
+
+
+def illuminant_rows(room: Room, runs: int, threads: int) -> list[Row]:
     """illuminant's radiosity at several settings.
 
-    Build the scene from `room.rectangles()` (a lamp of radiance 1 W/(m² sr), front side only), ask for irradiance at
-    `room.sensors()` facing up, and measure the seconds of everything from the description on.
+    A lamp of luminance 1 cd/m² makes as many lux as one of radiance 1 W/(m² sr) makes W/m². Three samples, as Radiance
+    has.
     """
-    # TODO: to be written with the radiosity technique.
-    raise NotImplementedError("radiosity has no rows yet")
+    from illuminant import Scene, radiosity
+
+    def grey(reflectance: float) -> dict[str, object]:
+        return {"kind": "diffuse", "reflectance": reflectance}
+
+    rows = {name: Row("illuminant radiosity", name) for name in RADIOSITY}
+    for run in range(runs + 1):
+        for name, told in RADIOSITY.items():
+            begun, busy = time.monotonic(), time.process_time()
+            faces = room.rectangles()
+            materials = {
+                face.name: grey(face.reflectance)
+                if face.radiance == 0.0
+                else {
+                    "kind": "emitter",
+                    "spectrum": "E",
+                    "luminance_cd_m2": face.radiance,
+                    "reflectance": 0.0,
+                }
+                for face in faces
+            }
+            objects = {}
+            for face in faces:
+                corner, first, second = (
+                    np.array(edge, float) for edge in (face.corner, face.first, face.second)
+                )
+                corners = [corner, corner + first, corner + first + second, corner + second]
+                objects[face.name] = {"rectangle": {"corners": corners}, "material": face.name}
+            camera = {"eye": [3.0, 1.0, 1.5], "target": [3.0, 3.0, 1.2], "size": [16, 16]}
+            scene = Scene.build(camera=camera, materials=materials, objects=objects, up="z")
+            options = {key: value for key, value in told.items() if key != "sensors"}
+            solution = radiosity.solve(scene, sampling="xyz", threads=threads, **options)
+            found = solution.illuminance(room.sensors(), (0.0, 0.0, 1.0), samples=told["sensors"])
+            if run == 0:
+                continue  # to load what is loaded once
+            row = rows[name]
+            row.seconds.append(time.monotonic() - begun)
+            row.processor_seconds.append(time.process_time() - busy)
+            row.irradiance.append(found)
+    return list(rows.values())
 
 
 class Reference:
@@ -357,10 +404,7 @@ def main() -> None:
     room = Room()
     truth = reference(room, options.error)
     rows = radiance_rows(room, options.peer, options.runs, options.processes)
-    try:
-        rows += illuminant_rows(room)
-    except NotImplementedError as reason:
-        print(f"illuminant: {reason}", file=sys.stderr)
+    rows += illuminant_rows(room, options.runs, options.processes)
     print(f"{len(truth)} sensors, {truth.min():.4f} to {truth.max():.4f} W/m², mean {truth.mean():.4f}")
     print("| program | setting | seconds | processor seconds | RMS error | largest error | mean error |")
     print("| --- | --- | --- | --- | --- | --- | --- |")

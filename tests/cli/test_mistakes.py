@@ -93,7 +93,8 @@ LONG = "a" * 5000
         ),
         (
             "render ball.toml --technique magic",
-            '--technique magic: no technique "magic"; known are constant, gouraud, phong, raytrace, distributed, path.',
+            '--technique magic: no technique "magic"; known are constant, gouraud, phong, raytrace, distributed, path, '
+            "radiosity, specular-radiosity, hybrid.",
         ),
         (
             "render ball.toml --sampling fitted:0",

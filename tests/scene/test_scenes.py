@@ -26,6 +26,7 @@ NAMES = [
     "metamers",
     "morning",
     "prism",
+    "reading-room",
     "tiles",
     "two-filters",
     "whitted",

@@ -77,6 +77,7 @@ SCENES = [
     "metamers.toml",
     "morning.toml",
     "prism.toml",
+    "reading-room.toml",
     "tiles.toml",
     "two-filters.toml",
     "whitted.toml",

@@ -44,6 +44,52 @@ pub fn parallel_rectangles(a: f64, b: f64, c: f64) -> f64 {
             - y * y.atan())
 }
 
+/// The form factor from a rectangle a × b to one a × c that meets it at a right angle along their common edge a (Hottel 1931; Howell's
+/// catalogue, C-14).
+///
+/// ```
+/// use illuminant_radiosity::form_factor::{parallel_rectangles, perpendicular_rectangles};
+/// // A wall of a cube sees the opposite one and four others.
+/// let sum = parallel_rectangles(1.0, 1.0, 1.0) + 4.0 * perpendicular_rectangles(1.0, 1.0, 1.0);
+/// assert!((sum - 1.0).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn perpendicular_rectangles(a: f64, b: f64, c: f64) -> f64 {
+    let (h, w) = (c / a, b / a);
+    let (h2, w2) = (h * h, w * w);
+    let both = h2 + w2;
+    let logarithms = ((1.0 + w2) * (1.0 + h2) / (1.0 + both)).ln()
+        + w2 * (w2 * (1.0 + both) / ((1.0 + w2) * both)).ln()
+        + h2 * (h2 * (1.0 + both) / ((1.0 + h2) * both)).ln();
+    (w * (1.0 / w).atan() + h * (1.0 / h).atan() - both.sqrt() * (1.0 / both.sqrt()).atan()
+        + 0.25 * logarithms)
+        / (PI * w)
+}
+
+/// The form factor from a disc to a parallel one on the same axis, of these radii, at a distance (Howell's catalogue, C-41).
+///
+/// ```
+/// use illuminant_radiosity::form_factor::coaxial_discs;
+/// // By reciprocity, and of a small disc below a large one sin² of the half-angle.
+/// assert!((coaxial_discs(1.0, 2.0, 1.5) - 4.0 * coaxial_discs(2.0, 1.0, 1.5)).abs() < 1e-12);
+/// assert!((coaxial_discs(1e-4, 1.0, 1.0) - 0.5).abs() < 1e-7);
+/// ```
+#[must_use]
+pub fn coaxial_discs(from: f64, to: f64, distance: f64) -> f64 {
+    let (r, s) = (from / distance, to / distance);
+    let x = 1.0 + (1.0 + s * s) / (r * r);
+    // The smaller root of F² − x F + (s/r)², without cancellation.
+    let product = (s / r) * (s / r);
+    2.0 * product / (x + (x * x - 4.0 * product).sqrt())
+}
+
+/// The form factor from a small area to a disc parallel to it whose middle lies on its normal: sin² of the half-angle.
+#[must_use]
+pub fn point_to_disc(radius: f64, distance: f64) -> f64 {
+    let (r2, d2) = (radius * radius, distance * distance);
+    r2 / (r2 + d2)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

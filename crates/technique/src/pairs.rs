@@ -221,11 +221,45 @@ pub(crate) fn misfits(scene: &Scene, settings: &Settings) -> Vec<String> {
     if scene.medium.is_some() && technique != Technique::Path {
         found.push(format!("{technique} does not see what is in the air: path follows light in the medium"));
     }
-    let trees = matches!(technique, Technique::Raytrace | Technique::Distributed);
+    if technique.is_solved() {
+        found.extend(unsolved(scene, technique, &used));
+    }
+    let trees = matches!(technique, Technique::Raytrace | Technique::Distributed | Technique::Hybrid);
     if let (true, Some(glass)) = (trees, of_glass(false, true)) {
         found.push(format!(
             "{technique} bends all wavelengths alike, as 589.3 nm; path shows how {:?} disperses them",
             scene.materials[glass].name
+        ));
+    }
+    found
+}
+
+/// What a solution of the light between surfaces leaves out.
+fn unsolved(scene: &Scene, technique: Technique, used: &dyn Fn(&usize) -> bool) -> Vec<String> {
+    let mut found = Vec::new();
+    let named = |wanted: &dyn Fn(&Surface) -> bool| {
+        let material = scene.materials.iter().enumerate().find(|(i, m)| used(i) && wanted(&m.surface));
+        material.map(|(_, material)| &material.name)
+    };
+    if technique == Technique::Radiosity {
+        let shiny = |s: &Surface| matches!(s, Surface::Conductor { .. } | Surface::Coated { .. });
+        if let Some(name) = named(&shiny) {
+            found.push(format!(
+                "radiosity takes {name:?} for a diffuser of the same reflectance; hybrid follows what it mirrors"
+            ));
+        }
+    }
+    if technique != Technique::Hybrid {
+        let clear = |s: &Surface| matches!(s, Surface::Filter { .. } | Surface::Dielectric { .. });
+        if let Some(name) = named(&clear) {
+            found.push(format!("{technique} leaves {name:?} out: light passes it as if it were not there"));
+        }
+    }
+    let moves = (0..scene.objects.len()).find(|&object| !scene.geometry.is_static(object));
+    if let Some(object) = moves {
+        found.push(format!(
+            "{technique} solves for the light as it is when the shutter opens: {:?} moves",
+            scene.objects[object].name
         ));
     }
     found

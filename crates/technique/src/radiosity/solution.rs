@@ -259,13 +259,13 @@ fn refined<M: IlluminationModel<LANES> + Prepare>(
     passes: &[Pass<LANES, M>],
     threshold: f64,
     (parts, patch, lit): (&[Part], f64, &dyn Fn(usize, bool) -> bool),
-    most: usize,
+    (count, most): (u32, usize),
 ) -> Elements {
     let smallest = elements.all.iter().map(|e| e.area).fold(0.0, f64::max) / 64.0;
     let lamps: Vec<usize> = (0..scene.lamps.len()).collect();
     for _ in 0..ROUNDS {
         let all = (&lamps[..], lamps.len());
-        let light = direct_light(scene, &elements, &passes[..1], all, LANES, 16);
+        let light = direct_light(scene, &elements, &passes[..1], all, LANES, count);
         let width = LANES * lamps.len();
         // Lamps of the scene's own strength, so that weak ones do not matter.
         let strength: Vec<f32> = scene.lamps.iter().map(|l| l.spectrum.area(scene.range) as f32).collect();
@@ -342,7 +342,8 @@ fn cut<M: IlluminationModel<LANES> + Prepare>(
     let mut elements = Elements::new(geometry, &parts, Refinement { element, patch }, &lit);
     if let Some(threshold) = told.adaptive {
         let most = 16 * told.elements as usize;
-        elements = refined(scene, elements, passes, threshold, (&parts, patch, &lit), most);
+        elements =
+            refined(scene, elements, passes, threshold, (&parts, patch, &lit), (told.light_samples, most));
     }
     if elements.sides.is_empty() {
         return Err("no light reaches any surface that is diffuse".into());

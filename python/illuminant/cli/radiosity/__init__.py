@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from illuminant.cli.radiosity import relight, show, solve
+from illuminant.cli.radiosity import relight, show, solve, verify
 
 __all__ = ["app"]
 
@@ -12,6 +12,7 @@ app = typer.Typer(no_args_is_help=True)
 app.command("solve", short_help="Solve for the light between surfaces.")(solve.solve)
 app.command("relight", short_help="Change lamps and paints of a solution.")(relight.relight)
 app.command("show", short_help="Image, mesh or illuminance of a solution.")(show.show)
+app.command("verify", short_help="Compare measured illuminance with a solution.")(verify.verify)
 
 
 @app.callback()
