@@ -94,6 +94,12 @@ class Solution:
         """The scene, and how many elements."""
         return f"<Solution of {self.scene!r}: {self.report['elements']} elements>"
 
+    def _check_irradiance(self) -> None:
+        if self.settings.technique == "specular-radiosity":
+            raise UsageError(
+                "specular-radiosity keeps radiance in all directions and no irradiance: it can only be rendered."
+            )
+
     # --- other lamps, paints and places --------------------------------------------------------------------------
 
     def relight(
@@ -114,6 +120,7 @@ class Solution:
             SceneError: a material has mistakes.
         """
         scene = self.scene
+        self._check_irradiance()
         if lamps:
             if not self.report["per_lamp"]:
                 raise UsageError(
@@ -135,6 +142,7 @@ class Solution:
         Raises:
             UsageError: the scene differs in more than that; solve it anew.
         """
+        self._check_irradiance()
         before, now = self.scene.description, scene.description
         names = [thing["name"] for thing in before["objects"]]
         if names != [thing["name"] for thing in now["objects"]]:
@@ -222,6 +230,7 @@ class Solution:
         """XYZ of the irradiance at points, (n, 3): Y is illuminance, lx. Arguments as `illuminance`."""
         import numpy as np
 
+        self._check_irradiance()
         places = np.atleast_2d(np.asarray(points, float))
         facing = np.broadcast_to(np.asarray(normals, float), places.shape)
         if places.shape[1:] != (3,) or not np.isfinite(places).all() or not np.isfinite(facing).all():
@@ -241,6 +250,7 @@ class Solution:
         """The surfaces with the light that they send, corner by corner."""
         import numpy as np
 
+        self._check_irradiance()
         data = self._core.mesh(self.scene.core(self.settings.threads))
         back = np.asarray(data["back"])
         # A surface lit from both sides has two sets of corners.
@@ -268,6 +278,7 @@ class Solution:
         """
         import numpy as np
 
+        self._check_irradiance()
         parts = dict(self._core.parts())
         header = {
             "format": FORMAT,

@@ -315,15 +315,14 @@ impl PathTracer {
         let mut add = |group: usize, sent: Lanes<N>| {
             radiance[path.light.bundle + group] += path.light.throughput * sent;
         };
-        if !path.looks_around {
-            if field.has_caustics() {
-                field.caustic(seen(sequence), hit, point, path.ray.direction, &mut add);
-            }
-            return false;
-        }
         // Nearer than the solution is detailed the path itself knows better.
-        distance >= field.detail(hit, point.position)
-            && field.radiance(seen(sequence), hit, point, path.ray.direction, &mut add)
+        if path.looks_around && distance >= field.detail(hit, point.position) {
+            return field.radiance(seen(sequence), hit, point, path.ray.direction, &mut add);
+        }
+        if field.has_caustics() && (path.from_diffuse || !path.looks_around) {
+            field.caustic(seen(sequence), hit, point, path.ray.direction, &mut add);
+        }
+        false
     }
 
     /// Asks a lamp, then draws the next direction; whether the path goes on.

@@ -350,7 +350,9 @@ impl RayTree {
                 add_around(scene, pass, light, mirrored, model.gloss(), &weight, traced.radiance);
             }
         }
-        if model.is_continuous() && shows {
+        // What is diffuse has been solved for, so that only gloss asks.
+        let asks = self.solved.is_none_or(|s| s.lamps || model.follows_gloss());
+        if model.is_continuous() && shows && asks {
             for lamp in 0..scene.lamps.len() {
                 self.ask(traced, branch, (hit.object, point), &met, lamp, glossy, sample, sequence);
             }

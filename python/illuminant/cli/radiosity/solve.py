@@ -20,6 +20,14 @@ def solve(
             "-o", "--output", metavar="FILE", help="The solution (SCENE.solution).", show_default=False
         ),
     ] = None,
+    technique: Annotated[
+        str | None,
+        typer.Option(
+            "--technique",
+            metavar="NAME",
+            help="radiosity, or hybrid, which follows mirrors and glass too (the scene's, or radiosity).",
+        ),
+    ] = None,
     elements: Annotated[
         int | None,
         typer.Option("--elements", metavar="N", help="About how many elements surfaces are cut into (6000)."),
@@ -77,7 +85,7 @@ def solve(
 ) -> None:
     """Solve for the light between the surfaces of a scene, and write the solution.
 
-    Surfaces are taken for diffusers of their reflectance; what is transparent is left out.
+    By radiosity surfaces are diffusers of their reflectance, and what is transparent is left out.
 
     \b
     Examples:
@@ -88,10 +96,16 @@ def solve(
     from illuminant import radiosity
     from illuminant.cli.radiosity.report import closing, facts
     from illuminant.cli.report import emit_json, note
+    from illuminant.errors import UsageError
 
     path = files.check(output or Path(scene.stem + ".solution"))
+    if technique == "specular-radiosity":
+        raise UsageError(
+            "--technique specular-radiosity: it keeps radiance in all directions and is not written; use render."
+        )
     found = radiosity.solve(
         scene,
+        technique=technique,
         elements=elements,
         patches=patches,
         adaptive=adaptive,
