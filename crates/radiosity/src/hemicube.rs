@@ -73,14 +73,23 @@ impl Hemicube {
     /// The middle of all cells, about the z axis and of no particular length, with their delta form factors.
     pub fn cells(&self) -> impl Iterator<Item = (Vec3, f32)> + '_ {
         (0..5).flat_map(move |face| {
-            let rows = if face == 0 { self.resolution } else { self.resolution / 2 };
-            (0..rows).flat_map(move |j| {
-                (0..self.resolution).map(move |i| {
-                    let delta = if face == 0 { self.top(i, j) } else { self.side(i, j) };
-                    (self.middle(face, i, j), delta)
-                })
+            (0..self.rows(face)).flat_map(move |j| {
+                (0..self.resolution).map(move |i| (self.middle(face, i, j), self.delta(face, i, j)))
             })
         })
+    }
+
+    /// How many rows of cells a face has: 0 is the top.
+    #[must_use]
+    pub fn rows(&self, face: u32) -> u32 {
+        if face == 0 { self.resolution } else { self.resolution / 2 }
+    }
+
+    /// The delta form factor of a cell of a face.
+    #[inline]
+    #[must_use]
+    pub fn delta(&self, face: u32, i: u32, j: u32) -> f32 {
+        if face == 0 { self.top(i, j) } else { self.side(i, j) }
     }
 
     /// The middle of a cell: face 0 is the top, 1 to 4 the sides towards x, y, −x and −y.

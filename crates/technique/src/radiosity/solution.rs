@@ -4,15 +4,15 @@ use super::direct;
 use super::directional::{self, Directional};
 use super::reflectance::{Counted, is_clear, of_materials, of_textured_side};
 use super::settings::RadiositySettings;
-use super::specular::{Followed, Scratch, Seen};
+use super::specular::{Followed, Mirrors, Scratch, Seen};
 use crate::lanes::Pass;
 use crate::passes::{Light, group_lamps, passes_of};
 use crate::settings::{Settings, Technique};
 use glam::Vec3;
 use illuminant_illumination::{General, Historic, Illumination, IlluminationModel, Prepare, Surface};
 use illuminant_radiosity::{
-    Elements, FormFactors, Looking, Method, Part, Points, Problem, Refinement, Sparse, SpectralRows,
-    Subdivision, reached,
+    Elements, FormFactors, Hemicube, Looking, Method, Part, Points, Problem, Refinement, Sparse,
+    SpectralRows, Subdivision, reached,
 };
 use illuminant_sampling::{Basis, Role};
 use illuminant_scene::Scene;
@@ -483,15 +483,22 @@ impl RadiositySolution {
         passes: &[Pass<LANES, M>],
         method: Method,
     ) -> Result<(), String> {
-        let looking = Looking::new(method).ok_or_else(|| {
-            format!("hybrid follows rays from mirror to mirror, and {method} has none: use rays or hemicube")
-        })?;
+        let looking = Looking::new(method);
+        let mirrored = match method {
+            Method::Scanline(n) => Some((Hemicube::new(n), Mirrors::new(scene, passes)?)),
+            Method::Area(_) => {
+                return Err(format!(
+                    "hybrid follows light from mirror to mirror, and {method} does not: use rays or hemicube"
+                ));
+            }
+            _ => None,
+        };
         let (elements, mechanisms) = (Arc::clone(&self.elements), settings.radiosity.mechanisms);
         let followed = Followed {
             scene,
             elements: &elements,
             passes,
-            looking: &looking,
+            looking: looking.as_ref(),
             threshold: settings.threshold as f32,
             column_of: &self.column_of,
             columns: self.columns,
@@ -502,7 +509,13 @@ impl RadiositySolution {
         let patches = elements.patches.len();
         let seen: Vec<Seen> = (0..elements.sides.len() as u32)
             .into_par_iter()
-            .map_init(|| Scratch::new(patches), |scratch, side| followed.look(side, scratch))
+            .map_init(
+                || Scratch::new(patches),
+                |scratch, side| match &mirrored {
+                    Some((cube, mirrors)) => followed.look_into_mirrors(side, cube, mirrors, scratch),
+                    None => followed.look(side, scratch),
+                },
+            )
             .collect();
         if !mechanisms.diffuse_to_diffuse {
             self.direct.fill(0.0);

@@ -10,8 +10,11 @@ use crate::lanes::Pass;
 use crate::media::Media;
 use crate::path::Counts;
 use crate::sequence::Sequence;
-use illuminant_illumination::{IlluminationModel, Prepare};
-use illuminant_radiosity::{Elements, Looking, Row, directions};
+use glam::Vec3;
+use illuminant_illumination::{IlluminationModel, Incidence, Prepare, Surface};
+use illuminant_radiosity::{
+    Elements, Hemicube, Looking, Mirror, Reflection, Row, Sight, directions, look_into_mirrors,
+};
 use illuminant_sampling::Lanes;
 use illuminant_scene::{LampForm, Ray, Scene};
 use std::f32::consts::PI;
@@ -44,6 +47,72 @@ impl Scratch {
     }
 }
 
+/// The flat mirrors of a scene, and what each reflects under how many cosines, in the lanes of each pass.
+pub(super) struct Mirrors<const N: usize> {
+    all: Vec<Mirror>,
+    /// For each pass, each mirror.
+    reflectance: Vec<Vec<Vec<Lanes<N>>>>,
+    /// The most that each reflects.
+    brightest: Vec<f32>,
+}
+
+/// Steps of a mirror's reflectance over the cosine.
+const COSINES: usize = 256;
+
+impl<const N: usize> Mirrors<N> {
+    /// The mirrors of a scene, for the mirrored environment.
+    ///
+    /// # Errors
+    /// A sentence on what is neither diffuse nor a flat mirror.
+    pub fn new<M: IlluminationModel<N> + Prepare>(
+        scene: &Scene,
+        passes: &[Pass<N, M>],
+    ) -> Result<Self, String> {
+        let mut found =
+            Self { all: Vec::new(), reflectance: vec![Vec::new(); passes.len()], brightest: Vec::new() };
+        for (number, object) in scene.objects.iter().enumerate() {
+            let material = &scene.materials[object.material];
+            let mirror = match &material.surface {
+                Surface::Diffuse { .. } | Surface::Translucent { .. } => continue,
+                Surface::Conductor { finish, .. } if finish.is_smooth() => {
+                    Mirror::new(&scene.geometry, number as u32)
+                }
+                _ => None,
+            };
+            let Some(mirror) = mirror else {
+                return Err(format!(
+                    "scanline sees flat mirrors as windows into a mirrored scene, and {:?} is no flat mirror: use rays or \
+                     hemicube",
+                    object.name
+                ));
+            };
+            found.all.push(mirror);
+            let mut brightest = 0f32;
+            for (pass, tables) in passes.iter().zip(&mut found.reflectance) {
+                let under = |i: usize| {
+                    let cos = (i as f32 + 0.5) / COSINES as f32;
+                    let at = Incidence {
+                        to_viewer: Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos),
+                        near: pass.index(None),
+                        far: pass.index(Some(object.material)),
+                        hero_lane: None,
+                    };
+                    let lobes = pass.materials[object.material].discrete_lobes(&at);
+                    let reflected = lobes.into_iter().filter(|lobe| !lobe.transmitted);
+                    reflected.fold((Lanes::default(), 0f32), |(sum, bright), lobe| {
+                        (sum + lobe.weight, bright + lobe.brightness)
+                    })
+                };
+                let table: Vec<(Lanes<N>, f32)> = (0..COSINES).map(under).collect();
+                brightest = table.iter().map(|(_, bright)| *bright).fold(brightest, f32::max);
+                tables.push(table.into_iter().map(|(lanes, _)| lanes).collect());
+            }
+            found.brightest.push(brightest);
+        }
+        Ok(found)
+    }
+}
+
 struct Branch<const N: usize> {
     ray: Ray,
     throughput: Lanes<N>,
@@ -52,12 +121,29 @@ struct Branch<const N: usize> {
     segment: u32,
 }
 
+/// Where the samples of a patch stand among those that are seen by way of others.
+fn slots_of<'a>(
+    scratch: &mut Scratch,
+    columns: &mut Vec<u32>,
+    values: &'a mut Vec<f32>,
+    patch: u32,
+    samples: usize,
+) -> &'a mut [f32] {
+    let place = &mut scratch.place[patch as usize];
+    if *place == u32::MAX {
+        *place = columns.len() as u32;
+        columns.push(patch);
+        values.resize(values.len() + samples, 0.0);
+    }
+    &mut values[*place as usize * samples..][..samples]
+}
+
 /// How rays are followed.
 pub(super) struct Followed<'a, const N: usize, M> {
     pub scene: &'a Scene,
     pub elements: &'a Elements,
     pub passes: &'a [Pass<N, M>],
-    pub looking: &'a Looking,
+    pub looking: Option<&'a Looking>,
     /// What a ray weighs at least.
     pub threshold: f32,
     pub column_of: &'a [usize],
@@ -79,12 +165,81 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Followed<'_, N, M> {
         };
         for (number, pass) in self.passes.iter().enumerate() {
             let mut k = 0;
-            directions(&self.scene.geometry, self.elements, side, self.looking, &mut |direction| {
+            let Some(looking) = self.looking else { break };
+            directions(&self.scene.geometry, self.elements, side, looking, &mut |direction| {
                 let sequence = Sequence::new(0, u64::from(side), k, 0);
                 k += 1;
                 self.follow(pass, number == 0, direction.ray, direction.part, sequence, scratch, &mut seen);
             });
         }
+        for &patch in &seen.columns {
+            scratch.place[patch as usize] = u32::MAX;
+        }
+        seen.straight = scratch.straight.take();
+        seen
+    }
+
+    /// What a side sees, with the scene reflected about the planes of flat mirrors.
+    pub fn look_into_mirrors(
+        &self,
+        side: u32,
+        cube: &Hemicube,
+        mirrors: &Mirrors<N>,
+        scratch: &mut Scratch,
+    ) -> Seen {
+        let mut seen = Seen {
+            straight: Vec::new(),
+            columns: Vec::new(),
+            values: Vec::new(),
+            lamps: vec![0.0; self.columns * self.samples],
+        };
+        let scene = self.scene;
+        let goes_on = |chain: &[Reflection]| {
+            let weight: f32 = chain.iter().map(|(k, _)| mirrors.brightest[*k as usize]).product();
+            self.specular && weight > self.threshold && chain.len() < DEEPEST as usize
+        };
+        let mut each = |chain: &[Reflection], sight: Sight, part: f32| {
+            for (number, pass) in self.passes.iter().enumerate() {
+                let own = pass.samples.clone();
+                let mut weight = Lanes::splat(part);
+                for (mirror, cos) in chain {
+                    let table = &mirrors.reflectance[number][*mirror as usize];
+                    weight *= table[((cos * COSINES as f32) as usize).min(COSINES - 1)];
+                }
+                let by_way = !chain.is_empty();
+                let mut shine = |lamp: usize, light: Lanes<N>| {
+                    let slots = &mut seen.lamps[self.column_of[lamp] * self.samples..][own.clone()];
+                    slots.iter_mut().zip(&light.0).for_each(|(sum, v)| *sum += v);
+                };
+                match sight {
+                    Sight::Open(direction) => {
+                        for &lamp in scene.surroundings.iter().filter(|_| by_way) {
+                            shine(lamp, weight * pass.surroundings(scene, lamp, direction) * PI);
+                        }
+                    }
+                    Sight::Element(number_of, back, direction) => {
+                        let element = &self.elements.all[number_of as usize];
+                        let lamp = scene.objects[element.object as usize].lamp;
+                        let lamp =
+                            lamp.filter(|&l| by_way && scene.lamps[l].emits(element.normal, direction));
+                        if let Some(lamp) = lamp {
+                            let relative = scene.lamps[lamp].relative_radiance(element.normal, direction);
+                            shine(lamp, weight * pass.emission[lamp] * (PI * relative));
+                        }
+                        let Some(met) = self.elements.side(number_of, back) else { continue };
+                        let patch = self.elements.patch_of[met as usize];
+                        if by_way {
+                            let slots =
+                                slots_of(scratch, &mut seen.columns, &mut seen.values, patch, self.samples);
+                            slots[own.clone()].iter_mut().zip(&weight.0).for_each(|(sum, v)| *sum += v);
+                        } else if number == 0 && self.straight {
+                            scratch.straight.add(patch, part);
+                        }
+                    }
+                }
+            }
+        };
+        look_into_mirrors(&scene.geometry, self.elements, &mirrors.all, side, cube, &goes_on, &mut each);
         for &patch in &seen.columns {
             scratch.place[patch as usize] = u32::MAX;
         }
@@ -135,15 +290,9 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Followed<'_, N, M> {
             if let Some(met) = self.elements.side_at(&branch.ray, &hit) {
                 let patch = self.elements.patch_of[met as usize];
                 if by_way {
-                    let place = &mut scratch.place[patch as usize];
-                    if *place == u32::MAX {
-                        *place = seen.columns.len() as u32;
-                        seen.columns.push(patch);
-                        seen.values.resize(seen.values.len() + self.samples, 0.0);
-                    }
-                    let slots = &mut seen.values[*place as usize * self.samples..][own.clone()];
+                    let slots = slots_of(scratch, &mut seen.columns, &mut seen.values, patch, self.samples);
                     let weight = branch.throughput * part;
-                    slots.iter_mut().zip(&weight.0).for_each(|(sum, v)| *sum += v);
+                    slots[own.clone()].iter_mut().zip(&weight.0).for_each(|(sum, v)| *sum += v);
                 } else if first && self.straight {
                     scratch.straight.add(patch, part);
                 }
