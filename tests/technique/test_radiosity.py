@@ -277,7 +277,7 @@ def test_a_box_of_three_pairs_of_walls():
     rho = np.array(list(reflectance.values()))
     expected = np.linalg.solve(np.eye(3) - rho[:, None] * factors, list(emission.values()))
     for method in ("rays:16384", "area:256"):
-        found = luminances(solve(scene, elements=12, form_factors=method, light_samples=65536))
+        found = luminances(solve(scene, elements=1, form_factors=method, light_samples=16384))
         for axis, value in zip(size, expected, strict=True):
             mean = 0.5 * (found[f"{axis}0"] + found[f"{axis}1"])
             assert mean == pytest.approx(value, rel=5e-3), (method, axis)
@@ -822,7 +822,7 @@ def test_substructures_save_form_factors():
     coarse = solve(scene, elements=2400, patches=400, form_factors="rays:512")
     assert coarse.report["elements"] == pytest.approx(fine.report["elements"], rel=0.05)
     assert coarse.report["patches"] < 0.25 * fine.report["patches"]
-    assert coarse.report["form_factors"] < 0.6 * fine.report["form_factors"]
+    assert coarse.report["form_factors"] < 0.7 * fine.report["form_factors"]
     a, b = (solution.render(samples=16).xyz for solution in (coarse, fine))
     np.testing.assert_allclose(a.mean(axis=(0, 1)), b.mean(axis=(0, 1)), rtol=0.01)
 
