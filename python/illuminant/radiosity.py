@@ -232,9 +232,11 @@ class Solution:
 
         self._check_irradiance()
         places = np.atleast_2d(np.asarray(points, float))
+        if places.shape[1:] != (3,) or np.shape(normals) not in ((3,), places.shape):
+            raise UsageError("Points and normals must have three coordinates each, and be as many.")
         facing = np.broadcast_to(np.asarray(normals, float), places.shape)
-        if places.shape[1:] != (3,) or not np.isfinite(places).all() or not np.isfinite(facing).all():
-            raise UsageError("Points and normals must be finite and have three coordinates each.")
+        if not np.isfinite(places).all() or not np.isfinite(facing).all():
+            raise UsageError("Points and normals must be finite.")
         if not 1 <= samples <= 2**20:
             raise UsageError(f"samples {samples}: expected a whole number from 1 to {2**20}.")
         embree()
@@ -284,6 +286,7 @@ class Solution:
             "format": FORMAT,
             "settings": dataclasses.asdict(self.settings),
             "width": parts.pop("width"),
+            "history": self.report["history"],
         }
         arrays = {
             "header": np.frombuffer(json.dumps(header).encode(), np.uint8),
@@ -323,25 +326,32 @@ class Solution:
                 key: tuple(one) if isinstance(one, list) else one for key, one in told.items()
             }
             settings = Settings(**known)
-            scene = Scene.from_bytes(arrays.pop("scene").tobytes())
-            fitted = Scene.from_bytes(arrays.pop("fitted_to").tobytes())
+            parts: dict[str, Any] = {**arrays, "width": int(header["width"])}
+            core_settings, history = settings.to_core(), [float(value) for value in header["history"]]
+            sound = settings.technique in SOLVED and 0 <= settings.threads <= 4096
+            sound &= all(np.isfinite(arrays[key]).all() and (arrays[key] >= 0).all() for key in _NUMBERS)
+            if not sound:
+                raise ValueError("numbers that cannot be")
         except DataError:
             raise
         except OSError as error:
             raise DataError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}.") from error
-        except (ValueError, KeyError, TypeError, AttributeError, zipfile.BadZipFile) as error:
+        except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile) as error:
             raise DataError(f"{name} is no solution of illuminant.") from error
         embree()
         try:
+            scene = Scene.from_bytes(parts.pop("scene").tobytes())
+            fitted = Scene.from_bytes(parts.pop("fitted_to").tobytes())
             found = core().Solution.restored(
-                scene.core(settings.threads),
-                settings.to_core(),
-                fitted.core(settings.threads),
-                arrays | {"width": header["width"]},
+                scene.core(settings.threads), core_settings, fitted.core(settings.threads), parts
             )
-        except ValueError as error:
+        except DataError as error:
+            raise DataError(f"{name}: {error.message.rstrip('.')}.") from error
+        except (ValueError, KeyError) as error:
             raise DataError(f"{name}: {str(error).rstrip('.')}.") from error
-        return cls(scene, settings, found, fitted_to=fitted)
+        result = cls(scene, settings, found, fitted_to=fitted)
+        result.report["history"] = history
+        return result
 
     def save_mesh(self, path: str | os.PathLike[str], *, exposure: float | None = None) -> float:
         """Write the surfaces as GLB (glTF 2): vertex colours are linear sRGB for a display, 8 bits a channel; the
@@ -395,6 +405,9 @@ class Solution:
 def _glb(scene: Any) -> bytes:
     return bytes(scene.export(file_type="glb", include_normals=True))
 
+
+_NUMBERS = ("values", "direct", "irradiance", "reflectance", "transmittance", "caustics")
+"""The arrays of a file whose numbers are finite and not negative."""
 
 _OF_SOLUTION = (
     "elements",

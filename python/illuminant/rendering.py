@@ -200,7 +200,9 @@ class Job:
         for word in WORDS:
             if options.get(word) is not None:
                 try:
-                    core().Render(self.core_scene, resolve({word: options[word]}).to_core())
+                    # As little work as there can be, should something have to be solved for.
+                    little = {"elements": 1, "cube": 4, "light_samples": 1, "form_factors": "rays:1"}
+                    core().Render(self.core_scene, resolve({**little, word: options[word]}).to_core())
                 except ValueError:
                     return f"--{word} {options[word]}: "
         return ""

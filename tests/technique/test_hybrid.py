@@ -239,14 +239,13 @@ def test_a_cube_reflected_in_a_glossy_floor():
     )
     path = render(scene, 256)
     solution = radiosity.solve(
-        scene, technique="specular-radiosity", sampling="uniform:8", elements=500, cube=24
+        scene, technique="specular-radiosity", sampling="uniform:8", elements=2000, cube=24
     )
     assert solution.report["creation"] <= 0.01
     found = solution.render(samples=16)
     floor = np.s_[34:46, 22:42]
     apart = found.xyz[floor].mean(axis=(0, 1)) / path.xyz[floor].mean(axis=(0, 1)) - 1
-    # Of blue there is little, and what little differs is much of it.
-    assert np.abs(apart[:2]).max() < 0.1, apart
+    assert np.abs(apart).max() < 0.05, apart
     np.testing.assert_allclose(mean(found), mean(path), rtol=0.05)
 
 
@@ -278,6 +277,6 @@ def test_a_solution_of_directions_can_only_be_seen(tmp_path):
         lambda: solution.illuminance([[1, 0, 1]]),
         lambda: solution.relight(materials={"white": {"kind": "diffuse", "reflectance": 0.5}}),
     ):
-        with pytest.raises(UsageError, match="keeps radiance and no irradiance"):
+        with pytest.raises(UsageError, match="no irradiance"):
             use()
     assert not list(tmp_path.iterdir())

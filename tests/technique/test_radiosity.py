@@ -517,7 +517,8 @@ def test_a_damaged_file_is_one_sentence(solved, tmp_path):
         assert "is no solution" in load(content), content[:20]
     for name in arrays:
         load({key: one for key, one in arrays.items() if key != name})
-        load(arrays | {name: arrays[name][:-1]})
+        if len(arrays[name]):
+            load(arrays | {name: arrays[name][:-1]})
         load(arrays | {name: np.zeros((3, 3))})
     load(arrays | {"columns": np.full_like(arrays["columns"], 2**31)})
     load(arrays | {"starts": arrays["starts"][::-1].copy()})
@@ -733,7 +734,7 @@ def test_sensors_in_a_room_read_what_path_finds():
 
 def test_sensors_must_be_places(solved):
     for points, normals in (([[0, 0]], UP), ([[np.nan, 0, 0]], UP), ([[0, 0, 0]], [np.inf, 0, 0])):
-        with pytest.raises(UsageError, match="Points and normals must be finite"):
+        with pytest.raises(UsageError, match="Points and normals must"):
             solved.illuminance(points, normals)
     with pytest.raises(UsageError, match="samples 0: expected"):
         solved.illuminance([[0, 0, 0]], samples=0)

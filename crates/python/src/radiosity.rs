@@ -33,6 +33,8 @@ fn flat(dict: &Bound<'_, PyDict>, key: &str) -> PyResult<Vec<f32>> {
     Ok(item::<PyReadonlyArray1<'_, f32>>(dict, key)?.as_array().to_vec())
 }
 
+/// The weight below which sensors follow a ray no more.
+const THRESHOLD: f32 = 0.002;
 const DAMAGED: &str = "the form factors of the solution are damaged";
 
 /// Where rows of form factors begin, and their columns.
@@ -189,7 +191,7 @@ impl PySolution {
         let places: Vec<[Vec3; 2]> =
             points.into_iter().zip(normals).map(|(p, n)| [p, n.normalize_or(Vec3::Z)]).collect();
         let scene = Arc::clone(&scene.0);
-        let found = py.detach(|| self.0.illuminance(&scene, &places, samples));
+        let found = py.detach(|| self.0.illuminance(&scene, &places, (samples, THRESHOLD)));
         Ok(threes(found)?.to_pyarray(py))
     }
 

@@ -307,11 +307,12 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
             return None;
         }
         let frame = self.frame(facing);
-        let sequence = Kronecker::<4>::new(0x6472_6177);
         let of = |cell: usize| {
+            // Of its own for each cell, so that not all highlights lean the same way.
+            let sequence = Kronecker::<5>::new(cell as u64 ^ 0x6472_6177);
             let mut found: Drawn<LANES> = Vec::new();
             for k in 0..DRAWN {
-                let [a, b, u, v] = sequence.point(u64::from(k));
+                let [a, b, u, v, choice] = sequence.point(u64::from(k));
                 // All over the cell, so that a mirror sends all that belongs into it.
                 let to_viewer = frame.to_local(self.cube.direction(cell, [a, b]));
                 if to_viewer.z <= 1e-3 {
@@ -330,7 +331,6 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
                     add(lobe.direction, lobe.weight);
                 }
                 if model.follows_gloss() {
-                    let [choice, ..] = sequence.point(u64::from(k) + 7919);
                     if let Some(drawn) = model.gloss_ray(&at, [u, v, choice]).filter(|d| !d.transmitted) {
                         add(drawn.direction, drawn.weight);
                     }

@@ -1,14 +1,16 @@
 //! Irradiance where no surface need be: on grids of sensors and on working planes.
 
 use super::direct;
+use super::reflectance::Counted;
 use super::solution::RadiositySolution;
+use super::specular::{Followed, Scratch};
 use crate::passes::{Light, passes_of};
 use crate::settings::Settings;
 use glam::Vec3;
 use illuminant_illumination::{General, Illumination};
 use illuminant_optics::frame::Frame;
 use illuminant_optics::hemisphere;
-use illuminant_radiosity::{Kronecker, Place};
+use illuminant_radiosity::{Direction, Kronecker, Place};
 use illuminant_sampling::xyz_by;
 use illuminant_scene::{Scene, SurfacePoint};
 use rayon::prelude::*;
@@ -17,7 +19,12 @@ impl RadiositySolution {
     /// XYZ of the irradiance at places, each with the unit normal that it faces; Y is illuminance, lx. Each lamp is asked at `samples`
     /// places, and as many rays look around for the light that surfaces send.
     #[must_use]
-    pub fn illuminance(&self, scene: &Scene, places: &[[Vec3; 2]], samples: u32) -> Vec<[f64; 3]> {
+    pub fn illuminance(
+        &self,
+        scene: &Scene,
+        places: &[[Vec3; 2]],
+        (samples, threshold): (u32, f32),
+    ) -> Vec<[f64; 3]> {
         let geometry = &*scene.geometry;
         let (low, high) = geometry.bounds();
         let error = 1e-6 * (high - low).max_element().max(low.abs().max(high.abs()).max_element());
@@ -30,6 +37,19 @@ impl RadiositySolution {
         let width = self.columns * self.samples;
         let lamp_of: Vec<usize> =
             (0..self.columns).map(|c| self.column_of.iter().position(|&of| of == c).unwrap_or(0)).collect();
+        let radiosity = self.radiosity();
+        let followed = (self.counted == Counted::Diffuse).then(|| Followed {
+            scene,
+            elements: &self.elements,
+            passes: &passes,
+            looking: None,
+            threshold,
+            column_of: &self.column_of,
+            columns: self.columns,
+            samples: self.samples,
+            straight: true,
+            specular: true,
+        });
         let at = |(number, &[position, normal]): (usize, &[Vec3; 2])| {
             let point =
                 SurfacePoint { position, error, geometric_normal: normal, normal, uv: glam::Vec2::ZERO };
@@ -53,16 +73,41 @@ impl RadiositySolution {
                 add(lamp, &sum);
             }
             let frame = Frame::from_normal(normal);
+            let rays: Vec<Direction> = (0..samples)
+                .map(|k| {
+                    let [.., u, v] = sequence.point(u64::from(k));
+                    let ray = place.ray(frame.to_world(Vec3::from(hemisphere::cosine([u, v]))));
+                    Direction { ray, part: (samples as f32).recip() }
+                })
+                .collect();
             let mut sums = vec![0f64; width];
-            for k in 0..samples {
-                let [.., u, v] = sequence.point(u64::from(k));
-                let ray = place.ray(frame.to_world(Vec3::from(hemisphere::cosine([u, v]))));
-                let met = self.elements.meet(geometry, ray);
-                let Some(side) = met.and_then(|(ray, hit)| self.elements.side_at(&ray, &hit)) else {
-                    continue;
-                };
-                for (sum, sent) in sums.iter_mut().zip(self.radiosity_of(side)) {
-                    *sum += f64::from(sent) / f64::from(samples);
+            let receive = |sums: &mut [f64], patch: u32, weight: &dyn Fn(usize) -> f32| {
+                let sent = &radiosity[patch as usize * width..][..width];
+                for (i, (sum, sent)) in sums.iter_mut().zip(sent).enumerate() {
+                    *sum += f64::from(sent * weight(i % self.samples));
+                }
+            };
+            match &followed {
+                Some(followed) => {
+                    let mut scratch = Scratch::new(self.elements.patches.len());
+                    let seen = followed.look_along(&rays, number as u64, &mut scratch);
+                    seen.straight.iter().for_each(|&(patch, part)| receive(&mut sums, patch, &|_| part));
+                    for (&patch, values) in seen.columns.iter().zip(seen.values.chunks(self.samples)) {
+                        receive(&mut sums, patch, &|sample| values[sample]);
+                    }
+                    for (column, light) in seen.lamps.chunks(self.samples).enumerate() {
+                        let light: Vec<f64> = light.iter().map(|v| f64::from(*v)).collect();
+                        add(lamp_of[column], &light);
+                    }
+                }
+                None => {
+                    for Direction { ray, part } in rays {
+                        let met = self.elements.meet(geometry, ray);
+                        if let Some(side) = met.and_then(|(ray, hit)| self.elements.side_at(&ray, &hit)) {
+                            let sent = self.radiosity_of(side);
+                            sums.iter_mut().zip(sent).for_each(|(sum, b)| *sum += f64::from(b * part));
+                        }
+                    }
                 }
             }
             for column in 0..self.columns {

@@ -198,6 +198,11 @@ impl RadiositySolution {
         scene.lamps.iter().map(|lamp| reduce(&lamp.spectrum)).collect()
     }
 
+    /// The radiosity of patches, of each column of lamps in every sample.
+    pub(super) fn radiosity(&self) -> Vec<f32> {
+        self.problem(1e-5).restricted(&self.irradiance)
+    }
+
     /// Whether it holds what patches send into all directions, and no irradiance.
     #[must_use]
     pub fn is_directional(&self) -> bool {
@@ -332,8 +337,18 @@ fn cut<M: IlluminationModel<LANES> + Prepare>(
         matches!(scene.materials[o.material].surface, Surface::Translucent { .. })
     };
     let sheets: Vec<bool> = scene.objects.iter().map(is_sheet).collect();
+    let light: Vec<Vec<f32>> = (0..coarse.sides.len() as u32)
+        .into_par_iter()
+        .map(|side| {
+            let of = |lamp| direct::mean(scene, &coarse, &passes[0], lamp, side, 4);
+            (0..lamps).map(|lamp| of(lamp).0.iter().sum()).collect()
+        })
+        .collect();
+    let largest: Vec<f32> =
+        (0..lamps).map(|lamp| light.iter().map(|row| row[lamp]).fold(0.0, f32::max)).collect();
+    // What is less than this is the rounding of a lamp that lies in the plane of a side.
     let lit = reached(geometry, &coarse, &sheets, &|side| {
-        (0..lamps).any(|lamp| !direct::mean(scene, &coarse, &passes[0], lamp, side, 4).is_zero())
+        (0..lamps).any(|lamp| light[side as usize][lamp] > 1e-5 * largest[lamp])
     });
     let lit = |object: usize, back: bool| lit[object][usize::from(back)];
     // A cut halves, so elements end between half the limit and the limit: three quarters of it on average.

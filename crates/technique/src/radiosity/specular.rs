@@ -13,7 +13,7 @@ use crate::sequence::Sequence;
 use glam::Vec3;
 use illuminant_illumination::{IlluminationModel, Incidence, Prepare, Surface};
 use illuminant_radiosity::{
-    Elements, Hemicube, Looking, Mirror, Reflection, Row, Sight, directions, look_into_mirrors,
+    Direction, Elements, Hemicube, Looking, Mirror, Reflection, Row, Sight, directions, look_into_mirrors,
 };
 use illuminant_sampling::Lanes;
 use illuminant_scene::{LampForm, Ray, Scene};
@@ -157,6 +157,17 @@ pub(super) struct Followed<'a, const N: usize, M> {
 impl<const N: usize, M: IlluminationModel<N> + Prepare> Followed<'_, N, M> {
     /// What a side sees.
     pub fn look(&self, side: u32, scratch: &mut Scratch) -> Seen {
+        let mut rays = Vec::new();
+        if let Some(looking) = self.looking {
+            directions(&self.scene.geometry, self.elements, side, looking, &mut |direction| {
+                rays.push(direction)
+            });
+        }
+        self.look_along(&rays, u64::from(side), scratch)
+    }
+
+    /// What is seen along rays, which draw where they go on from the numbers of `stream`.
+    pub fn look_along(&self, rays: &[Direction], stream: u64, scratch: &mut Scratch) -> Seen {
         let mut seen = Seen {
             straight: Vec::new(),
             columns: Vec::new(),
@@ -164,13 +175,10 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Followed<'_, N, M> {
             lamps: vec![0.0; self.columns * self.samples],
         };
         for (number, pass) in self.passes.iter().enumerate() {
-            let mut k = 0;
-            let Some(looking) = self.looking else { break };
-            directions(&self.scene.geometry, self.elements, side, looking, &mut |direction| {
-                let sequence = Sequence::new(0, u64::from(side), k, 0);
-                k += 1;
-                self.follow(pass, number == 0, direction.ray, direction.part, sequence, scratch, &mut seen);
-            });
+            for (k, Direction { ray, part }) in rays.iter().enumerate() {
+                let sequence = Sequence::new(0, stream, k as u64, 0);
+                self.follow(pass, number == 0, *ray, *part, sequence, scratch, &mut seen);
+            }
         }
         for &patch in &seen.columns {
             scratch.place[patch as usize] = u32::MAX;

@@ -100,7 +100,9 @@ def show(
     }
     pictures = [path for path, kind in kinds.items() if kind in (".png", ".exr")]
     if pictures or luminance is not None:
-        image = found.render(camera=camera or None, size=size, samples=samples or 16, gather=gather)
+        image = found.render(
+            camera=camera or None, size=size, samples=16 if samples is None else samples, gather=gather
+        )
         for path in pictures:
             saved = image.save(path, exposure=exposure)
             report |= {"exposure": saved.exposure}
