@@ -234,7 +234,7 @@ CUBE = {"cube": {"box": {"min": [0.7, 0.01, 0.4], "max": [1.3, 0.6, 0.9]}, "mate
 
 @pytest.fixture(scope="module")
 def cube_on_satin():
-    """Immel, Cohen and Greenberg 1986: the floor before a yellow cube shows it; by path, and solved in all directions."""
+    """Immel et al. 1986: the floor before a yellow cube shows it; by path, and solved in all directions."""
     scene = room(CUBE, floor="satin", size=(64, 48)).replace(
         camera={"eye": [1, 0.9, 1.95], "target": [1, 0.2, 0.6], "field_of_view": 60}
     )
