@@ -83,7 +83,7 @@ pub fn look_into_mirrors(
     for face in 0..5 {
         let all: Vec<u32> = (0..cube.rows(face) * cube.resolution()).collect();
         let view = View { to_local, from: origin, eye: origin, window: None };
-        look.through(face, &view, &all, &mut Vec::new(), each);
+        look.through(face, &view, &all, &[], each);
     }
 }
 
@@ -113,7 +113,7 @@ impl Look<'_> {
         face: u32,
         view: &View,
         cells: &[u32],
-        chain: &mut Vec<(usize, Vec<f32>)>,
+        chain: &[(usize, Vec<f32>)],
         each: &mut dyn FnMut(&[Reflection], Sight, f32),
     ) {
         let mut drawn = Cells::new(self.cube);
@@ -183,7 +183,7 @@ impl Look<'_> {
                     window: Some(k),
                 };
                 let cells: Vec<u32> = cells.into_iter().map(|(cell, _)| cell).collect();
-                self.through(face, &beyond, &cells, &mut longer, each);
+                self.through(face, &beyond, &cells, &longer, each);
             }
         }
     }

@@ -131,6 +131,9 @@ struct Facing {
     sides: Vec<u32>,
 }
 
+/// What a side sends into all cells, and by how much that exceeds what arrives.
+type Reflected = (u32, Vec<Lanes<LANES>>, f64);
+
 /// Where the light comes from that a surface itself sends into a cell, and its weight.
 type Drawn<const N: usize> = Vec<(u32, Lanes<N>)>;
 
@@ -240,7 +243,7 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
         let mut history: Vec<f64> = Vec::new();
         while history.len() < STEPS {
             // What arrives without emission by form factors of the cells, and what was solved for last of all.
-            let results: Vec<(&Facing, Vec<(u32, Vec<Lanes<LANES>>, f64)>)> = facing
+            let results: Vec<Vec<Reflected>> = facing
                 .par_iter()
                 .map(|facing| {
                     let drawn = self.drawn(facing);
@@ -249,11 +252,11 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
                             self.reflect(side, facing, drawn.as_ref(), &sent, &lamps, &diffuse);
                         (side, new, creation)
                     };
-                    (facing, facing.sides.par_iter().map(of).collect())
+                    facing.sides.par_iter().map(of).collect()
                 })
                 .collect();
             let (mut changed, mut all, mut creation) = (0.0f64, 0.0f64, 0.0f64);
-            for (_, sides) in results {
+            for sides in results {
                 for (side, new, created) in sides {
                     let area = self.elements.area(side);
                     let old = &mut sent[side as usize * cells * groups..][..cells * groups];
