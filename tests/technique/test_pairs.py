@@ -50,11 +50,15 @@ def scene(tmp_path_factory, cylinder):
     return load(path)
 
 
+COARSE = {"elements": 200, "cube": 8, "form_factors": "rays:64"}
+"""Light in all directions of a curved metal takes minutes where it is fine."""
+
+
 @pytest.fixture(scope="module")
 def images(scene):
     return {
         (pair.technique, pair.illumination): illuminant.render(
-            scene, technique=pair.technique, illumination=pair.illumination, samples=16
+            scene, technique=pair.technique, illumination=pair.illumination, samples=16, **COARSE
         )
         for pair in pairs()
         if pair.verdict != "refused"
