@@ -9,8 +9,10 @@ import pytest
 import illuminant
 from illuminant.cli import run
 from illuminant.comparison import compare, pairs, save_sheet
+from illuminant.errors import UsageError
 from illuminant.rendering import replay
 from illuminant.scene import load
+from illuminant.settings import SOLVED
 
 SCENE = """
 [camera]
@@ -208,14 +210,20 @@ def test_every_pair_renders_every_scene(name, scenes):
     scene = illuminant.load(scenes / f"{name}.toml")
     for pair in pairs():
         if pair.verdict != "refused":
-            image = illuminant.render(
-                scene,
-                technique=pair.technique,
-                illumination=pair.illumination,
-                sampling="uniform:8",
-                samples=1,
-                size=(36, 24),
-            )
+            try:
+                image = illuminant.render(
+                    scene,
+                    technique=pair.technique,
+                    illumination=pair.illumination,
+                    sampling="uniform:8",
+                    samples=1,
+                    size=(36, 24),
+                    **COARSE,
+                )
+            except UsageError as error:
+                # Some scenes have no diffuse surface to solve for, or more directions than memory.
+                assert pair.technique in SOLVED and ("diffuse" in str(error) or "refused above" in str(error))
+                continue
             # Behind the prism all light has been refracted, which few pairs follow.
-            dark = name == "prism"
+            dark = name == "prism" or pair.technique in SOLVED
             assert np.isfinite(image.xyz).all() and (dark or image.xyz[..., 1].max() > 0), pair
