@@ -157,7 +157,7 @@ class Solution:
         moved = _moved(self.scene, scene)
         rows = 0
         if moved:
-            found, rows = found.moved(self.scene.core(self.settings.threads), core_scene, settings, moved)
+            found, rows = found.moved(core_scene, settings, moved)
         if _paints(self.scene) != _paints(scene):
             if self.settings.technique == "hybrid" and _mirrors(self.scene) != _mirrors(scene):
                 raise UsageError(

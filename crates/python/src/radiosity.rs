@@ -150,20 +150,18 @@ impl PySolution {
         py.detach(|| solved(self.0.repainted(&scene, &settings)))
     }
 
-    /// The solution after these objects have moved from where they were, and how many rows of form factors were found again.
+    /// The solution after these objects have moved, and how many rows of form factors were found again.
     fn moved(
         &self,
         py: Python<'_>,
-        before: &PyScene,
         scene: &PyScene,
         settings: &str,
         objects: Vec<usize>,
     ) -> PyResult<(Self, usize)> {
         self.irradiance()?;
         let settings = self::settings(settings)?;
-        let (before, scene) = (Arc::clone(&before.0), Arc::clone(&scene.0));
-        let (found, rows) =
-            py.detach(|| self.0.moved(&before, &scene, &settings, &objects)).map_err(wrong)?;
+        let scene = Arc::clone(&scene.0);
+        let (found, rows) = py.detach(|| self.0.moved(&scene, &settings, &objects)).map_err(wrong)?;
         Ok((Self(Arc::new(found)), rows))
     }
 

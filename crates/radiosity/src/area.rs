@@ -4,7 +4,7 @@ use crate::elements::Elements;
 use crate::form_factor::point_to_polygon;
 use crate::sequence::Kronecker;
 use glam::{DVec3, Vec3};
-use illuminant_scene::Geometry;
+use illuminant_scene::{Geometry, on_triangle};
 
 /// The part of a polygon above the horizon of a point.
 fn above(polygon: &[DVec3], point: DVec3, normal: DVec3) -> Vec<DVec3> {
@@ -25,11 +25,11 @@ fn above(polygon: &[DVec3], point: DVec3, normal: DVec3) -> Vec<DVec3> {
 /// A place on the flat triangle of a side, and its normal.
 fn flat(elements: &Elements, side: u32, u: [f32; 2]) -> (Vec3, Vec3) {
     let element = elements.element_of(side);
-    let [a, b, c] = elements.corners(element);
-    let root = u[0].sqrt();
+    let corners = elements.corners(element);
+    let [a, b, c] = corners;
     let normal = (b - a).cross(c - a).normalize();
     let towards = if elements.sides[side as usize].back { -element.normal } else { element.normal };
-    (a * (1.0 - root) + b * (root * (1.0 - u[1])) + c * (root * u[1]), normal * normal.dot(towards).signum())
+    (on_triangle(corners, u), normal * normal.dot(towards).signum())
 }
 
 /// What a side sees: every element whose sides it may face, at `count` places with a ray each to find what stands between.
@@ -72,11 +72,7 @@ pub(crate) fn look(
             }
             let back = facing < 0.0;
             // The surface of a curved element lies in front of its triangle, where a ray would end before it.
-            let root = u.sqrt();
-            let target = corners[0] * (1.0 - f64::from(root))
-                + corners[1] * f64::from(root * (1.0 - v))
-                + corners[2] * f64::from(root * v);
-            let target = target.as_vec3();
+            let target = on_triangle(elements.corners(element), [u, v]);
             let towards = (target - place.point.position).normalize_or_zero();
             if towards.dot(place.normal) <= 0.0 {
                 continue;

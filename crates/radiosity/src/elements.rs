@@ -3,7 +3,7 @@
 use crate::subdivision::Subdivision;
 use glam::{DVec3, Vec3};
 use illuminant_optics::spherical_triangle::SphericalTriangle;
-use illuminant_scene::{Geometry, Hit, Ray, SurfacePoint};
+use illuminant_scene::{Geometry, Hit, Ray, SurfacePoint, on_triangle};
 
 const NONE: u32 = u32::MAX;
 
@@ -95,12 +95,11 @@ fn triangle_area([a, b, c]: [Vec3; 3]) -> f64 {
     0.5 * (b - a).cross(c - a).length()
 }
 
-/// The part of a sphere in a triangle (van Oosterom and Strackee 1983).
+/// The part of a sphere in a triangle.
 fn spherical_area(corners: [Vec3; 3], (center, radius): (Vec3, f32)) -> f64 {
-    let [a, b, c] = corners.map(|p| (p - center).as_dvec3().normalize());
-    let volume = a.dot(b.cross(c)).abs();
-    let angle = 2.0 * volume.atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a));
-    angle * f64::from(radius) * f64::from(radius)
+    let corners = corners.map(|p| p.as_dvec3().to_array());
+    let seen = SphericalTriangle::new(corners, center.as_dvec3().to_array());
+    seen.map_or(0.0, |triangle| triangle.solid_angle()) * f64::from(radius) * f64::from(radius)
 }
 
 impl Elements {
@@ -168,7 +167,8 @@ impl Elements {
             }
             let mut own = [NONE; 2];
             for back in [false, true] {
-                if !lit[object as usize][usize::from(back)] {
+                // What has no area receives and sends nothing.
+                if !lit[object as usize][usize::from(back)] || found.area <= 0.0 {
                     continue;
                 }
                 let side = all.sides.len() as u32;
@@ -260,11 +260,7 @@ impl Elements {
                 let direction = seen.map_or(element.normal, |t| Vec3::from(t.sample(u)));
                 center + direction * radius
             }
-            None => {
-                let [a, b, c] = corners;
-                let root = u[0].sqrt();
-                a * (1.0 - root) + b * (root * (1.0 - u[1])) + c * (root * u[1])
-            }
+            None => on_triangle(corners, u),
         };
         self.at(geometry, side, at)
     }

@@ -115,7 +115,11 @@ impl Subdivision {
         self.nodes.push(Node { corners, apex: 0, halves: NONE, parent });
         self.objects.push(object);
         for i in 0..3 {
-            self.edges.entry(key(corners[i], corners[(i + 1) % 3])).or_default().push(node);
+            // A triangle that is no more than a line has one edge twice.
+            let at = self.edges.entry(key(corners[i], corners[(i + 1) % 3])).or_default();
+            if at.last() != Some(&node) {
+                at.push(node);
+            }
         }
     }
 
@@ -153,9 +157,14 @@ impl Subdivision {
             }
             let edge = self.longest(last);
             // One whose own longest edge is another is cut first; along such a chain edges grow, so it ends.
-            match self.edges[&edge].iter().copied().find(|&n| self.longest(n) != edge) {
+            let at = self.edges.get(&edge).map_or(&[][..], |at| at);
+            match at.iter().copied().find(|&n| self.longest(n) != edge) {
                 Some(other) => waiting.push(other),
-                None => self.cut(edge),
+                None if at.contains(&last) => self.cut(edge),
+                // What has no such edge is no triangle to be cut.
+                None => {
+                    waiting.pop();
+                }
             }
         }
     }

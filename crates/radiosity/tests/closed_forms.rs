@@ -1,40 +1,19 @@
 //! Form factors of every method against closed forms, and enclosures with closed-form factors.
 
-use glam::{Affine3A, Vec3, vec3};
+mod common;
+
+use common::{cut, geometry, inside_of_box, problem, rectangle};
+use glam::{Vec3, vec3};
 use illuminant_radiosity::form_factor::{
     coaxial_discs, parallel_rectangles, perpendicular_rectangles, point_to_disc,
 };
-use illuminant_radiosity::{Elements, FormFactors, Method, Part, Problem, Refinement, Solver, Sparse};
-use illuminant_scene::{Geometry, Mesh, Motion, Placement, Shape, embree};
+use illuminant_radiosity::{Elements, FormFactors, Method, Problem, Solver, Sparse};
+use illuminant_scene::{Mesh, Shape};
 
 const SIZE: [f64; 3] = [3.0, 2.0, 1.0];
 
-fn geometry(shapes: Vec<Shape>) -> Geometry {
-    embree::load_from_environment().unwrap();
-    let still = || Motion::new(vec![Affine3A::IDENTITY]).unwrap();
-    let placements = (0..shapes.len()).map(|shape| Placement { shape, motion: still() }).collect();
-    Geometry::new(shapes, placements, 1).unwrap()
-}
-
-fn rectangle(corner: Vec3, a: Vec3, b: Vec3) -> Shape {
-    Shape::Mesh(Mesh {
-        positions: vec![corner, corner + a, corner + a + b, corner + b],
-        indices: vec![[0, 1, 2], [0, 2, 3]],
-        ..Mesh::default()
-    })
-}
-
-/// The walls of a box, their normals inside: pairs that face each other along z, y and x.
 fn walls() -> Vec<Shape> {
-    let [x, y, z] = [Vec3::X * SIZE[0] as f32, Vec3::Y * SIZE[1] as f32, Vec3::Z * SIZE[2] as f32];
-    vec![
-        rectangle(Vec3::ZERO, x, y),
-        rectangle(z, y, x),
-        rectangle(Vec3::ZERO, z, x),
-        rectangle(y, x, z),
-        rectangle(Vec3::ZERO, y, z),
-        rectangle(x, z, y),
-    ]
+    inside_of_box(Vec3::from(SIZE.map(|v| v as f32)))
 }
 
 /// The form factor from wall i to wall j.
@@ -61,11 +40,6 @@ fn disc(radius: f32, z: f32) -> Shape {
     }));
     let indices = (0..count).map(|i| [0, 1 + i, 1 + (i + 1) % count]).collect();
     Shape::Mesh(Mesh { positions, indices, ..Mesh::default() })
-}
-
-fn cut(geometry: &Geometry, element: f64, lit: &dyn Fn(usize, bool) -> bool) -> Elements {
-    let parts = vec![Part::Surface; geometry.objects()];
-    Elements::new(geometry, &parts, Refinement { element, patch: element }, lit)
 }
 
 /// Form factors between objects: means of their sides' rows by area.
@@ -99,7 +73,7 @@ fn a_finer_look_comes_nearer_to_the_closed_forms() {
         (Method::Area(1), 0.03),
         (Method::Area(16), 0.005),
     ];
-    let elements = cut(&geometry, 0.05, &|_, back| !back);
+    let elements = cut(&geometry, 0.05, 0.05, &|_, back| !back);
     for (method, bound) in bounds {
         let found = between(&elements, &FormFactors::new(&geometry, &elements, method), 6);
         let mut square = 0.0;
@@ -118,7 +92,7 @@ fn discs_see_each_other_by_the_closed_form() {
     // The polygon of 256 sides is 1e-4 smaller than the circle.
     let (a, b, d) = (1.0, 1.5, 0.8);
     let geometry = geometry(vec![disc(a, 0.0), disc(b, d)]);
-    let elements = cut(&geometry, 0.02, &|object, back| (object == 0) != back);
+    let elements = cut(&geometry, 0.02, 0.02, &|object, back| (object == 0) != back);
     let (a, b, d) = (f64::from(a), f64::from(b), f64::from(d));
     for method in [Method::Rays(512), Method::Area(4)] {
         let found = between(&elements, &FormFactors::new(&geometry, &elements, method), 2);
@@ -133,7 +107,7 @@ fn discs_see_each_other_by_the_closed_form() {
 fn closed_form_factors_make_exact_enclosures() {
     let geometry = geometry(walls());
     // The two triangles of each wall, as they are.
-    let elements = cut(&geometry, 1e9, &|_, back| !back);
+    let elements = cut(&geometry, 1e9, 1e9, &|_, back| !back);
     assert_eq!(elements.sides.len(), 12);
     let wall = |side: u32| elements.element_of(side).object as usize;
     let rows: Vec<Vec<(u32, f32)>> = (0..12u32)
@@ -149,16 +123,7 @@ fn closed_form_factors_make_exact_enclosures() {
     let emission: Vec<f32> = (0..12).flat_map(|_| emitted).collect();
     let direct = factors.rows.times(&emission, 2);
     let reflectance: Vec<f32> = (0..12).flat_map(|_| rho).collect();
-    let problem = Problem {
-        elements: &elements,
-        factors: &factors,
-        specular: None,
-        reflectance: &reflectance,
-        transmittance: &[],
-        direct: &direct,
-        samples: 2,
-        tolerance: 1e-7,
-    };
+    let problem = problem(&elements, &factors, (&reflectance, &direct), 2);
     for solver in Solver::ALL {
         let found = problem.solve(solver).unwrap().irradiance;
         for h in found.chunks(2) {
@@ -179,7 +144,7 @@ fn a_sheet_sends_to_either_side_what_the_other_lets_through() {
     let middle = vec3(1.5, 0.0, 0.0);
     shapes.push(rectangle(middle, Vec3::Y * 2.0, Vec3::Z));
     let geometry = geometry(shapes);
-    let elements = cut(&geometry, 0.2, &|object, back| object == 6 || !back);
+    let elements = cut(&geometry, 0.2, 0.2, &|object, back| object == 6 || !back);
     let factors = FormFactors::new(&geometry, &elements, Method::Rays(1024));
     let (rho, through) = (0.6f32, 0.3f32);
     let sheet = |side: u32| elements.element_of(side).object == 6;
@@ -192,16 +157,8 @@ fn a_sheet_sends_to_either_side_what_the_other_lets_through() {
     let direct: Vec<f32> = sides.clone().map(|s| f32::from(u8::from(first(s)))).collect();
     let reflectance = vec![rho; elements.sides.len()];
     let transmittance: Vec<f32> = sides.clone().map(|s| if sheet(s) { through } else { 0.0 }).collect();
-    let problem = Problem {
-        elements: &elements,
-        factors: &factors,
-        specular: None,
-        reflectance: &reflectance,
-        transmittance: &transmittance,
-        direct: &direct,
-        samples: 1,
-        tolerance: 1e-6,
-    };
+    let without = problem(&elements, &factors, (&reflectance, &direct), 1);
+    let problem = Problem { transmittance: &transmittance, ..without };
     let reference = problem.solve(Solver::Gauss).unwrap().irradiance;
     for solver in Solver::ALL {
         let found = problem.solve(solver).unwrap().irradiance;
@@ -212,6 +169,6 @@ fn a_sheet_sends_to_either_side_what_the_other_lets_through() {
     // The other room has all of its light from the sheet.
     let dark: Vec<f32> = sides.filter(|&s| !first(s)).map(|s| reference[s as usize]).collect();
     assert!(dark.iter().all(|e| *e > 0.0));
-    let without = Problem { transmittance: &[], ..problem }.solve(Solver::Gauss).unwrap().irradiance;
+    let without = without.solve(Solver::Gauss).unwrap().irradiance;
     assert!(elements.sides.iter().enumerate().all(|(s, _)| first(s as u32) || without[s] == 0.0));
 }

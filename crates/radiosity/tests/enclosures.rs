@@ -1,47 +1,14 @@
 //! Closed enclosures against their algebraic solutions.
 
-use glam::{Affine3A, Mat3, Vec3, vec3};
-use illuminant_radiosity::{
-    Elements, FormFactors, Looking, Method, Part, Problem, Refinement, Solver, progressive,
-};
-use illuminant_scene::{Geometry, Mesh, Motion, Placement, Shape, embree};
+mod common;
 
-fn geometry(shapes: Vec<Shape>) -> Geometry {
-    embree::load_from_environment().unwrap();
-    let still = || Motion::new(vec![Affine3A::IDENTITY]).unwrap();
-    let placements = (0..shapes.len()).map(|shape| Placement { shape, motion: still() }).collect();
-    Geometry::new(shapes, placements, 1).unwrap()
-}
+use common::{cut, geometry, inside_of_box, problem};
+use glam::{Mat3, Vec3, vec3};
+use illuminant_radiosity::{FormFactors, Looking, Method, Solver, progressive};
+use illuminant_scene::{Mesh, Shape};
 
 fn sphere(radius: f32) -> Shape {
     Shape::Sphere { center: vec3(1.0, -2.0, 0.5), radius, turn: Mat3::IDENTITY }
-}
-
-/// A rectangle from a corner along two edges; its normal is their cross product.
-fn rectangle(corner: Vec3, a: Vec3, b: Vec3) -> Shape {
-    Shape::Mesh(Mesh {
-        positions: vec![corner, corner + a, corner + a + b, corner + b],
-        indices: vec![[0, 1, 2], [0, 2, 3]],
-        ..Mesh::default()
-    })
-}
-
-/// A box of six rectangles whose normals point inside.
-fn inside_of_box(size: Vec3) -> Vec<Shape> {
-    let [x, y, z] = [Vec3::X * size.x, Vec3::Y * size.y, Vec3::Z * size.z];
-    vec![
-        rectangle(Vec3::ZERO, x, y),
-        rectangle(z, y, x),
-        rectangle(Vec3::ZERO, z, x),
-        rectangle(y, x, z),
-        rectangle(Vec3::ZERO, y, z),
-        rectangle(x, z, y),
-    ]
-}
-
-fn cut(geometry: &Geometry, element: f64, patch: f64, back: bool) -> Elements {
-    let parts = vec![Part::Surface; geometry.objects()];
-    Elements::new(geometry, &parts, Refinement { element, patch }, &|_, side| side == back)
 }
 
 const METHODS: [Method; 4] =
@@ -54,7 +21,7 @@ const PARTS: [(f32, f32); 3] = [(1.0, 0.2), (0.0, 0.8), (3.0, 0.5)];
 fn a_sphere_of_different_parts_is_lit_evenly() {
     let radius = 2.0f32;
     let geometry = geometry(vec![sphere(radius)]);
-    let elements = cut(&geometry, 0.06, 0.06, true);
+    let elements = cut(&geometry, 0.06, 0.06, &|_, back| back);
     let total: f64 = elements.total_area();
     let exact = 4.0 * std::f64::consts::PI * f64::from(radius * radius);
     assert!((total / exact - 1.0).abs() < 1e-5, "{total} {exact}");
@@ -80,16 +47,7 @@ fn a_sphere_of_different_parts_is_lit_evenly() {
         let emission: Vec<f32> =
             (0..elements.patches.len()).map(|p| PARTS[part_of(elements.patches[p][0])].0).collect();
         let direct = factors.rows.times(&emission, 1);
-        let problem = Problem {
-            elements: &elements,
-            factors: &factors,
-            specular: None,
-            transmittance: &[],
-            reflectance: &reflectance,
-            direct: &direct,
-            samples: 1,
-            tolerance: 1e-6,
-        };
+        let problem = problem(&elements, &factors, (&reflectance, &direct), 1);
         let found = problem.solve(Solver::BiCgStab).unwrap().irradiance;
         let mut mean = [0f64; 3];
         for side in sides.clone() {
@@ -108,7 +66,7 @@ fn a_sphere_of_different_parts_is_lit_evenly() {
 #[test]
 fn a_closed_box_of_one_paint_holds_e_over_1_minus_rho() {
     let geometry = geometry(inside_of_box(vec3(3.0, 2.0, 1.0)));
-    let elements = cut(&geometry, 0.2, 0.2, false);
+    let elements = cut(&geometry, 0.2, 0.2, &|_, back| !back);
     for method in METHODS {
         let factors = FormFactors::new(&geometry, &elements, method);
         let sides = elements.sides.len();
@@ -116,16 +74,7 @@ fn a_closed_box_of_one_paint_holds_e_over_1_minus_rho() {
         let reflectance: Vec<f32> = (0..sides).flat_map(|_| [0.5, 0.9]).collect();
         let emission: Vec<f32> = (0..elements.patches.len()).flat_map(|_| [1.0, 2.0]).collect();
         let direct = factors.rows.times(&emission, 2);
-        let problem = Problem {
-            elements: &elements,
-            factors: &factors,
-            specular: None,
-            transmittance: &[],
-            reflectance: &reflectance,
-            direct: &direct,
-            samples: 2,
-            tolerance: 1e-6,
-        };
+        let problem = problem(&elements, &factors, (&reflectance, &direct), 2);
         for solver in Solver::ALL {
             let found = problem.solve(solver).unwrap();
             // Rows that miss a part e of 1 make an error of e/(1 − ρ).
@@ -144,23 +93,14 @@ fn a_closed_box_of_one_paint_holds_e_over_1_minus_rho() {
 #[test]
 fn solvers_agree() {
     let geometry = geometry(inside_of_box(vec3(3.0, 2.0, 1.0)));
-    let elements = cut(&geometry, 0.1, 0.5, false);
+    let elements = cut(&geometry, 0.1, 0.5, &|_, back| !back);
     assert!(elements.patches.len() * 3 < elements.sides.len());
     let factors = FormFactors::new(&geometry, &elements, Method::Rays(256));
     let sides = elements.sides.len();
     let reflectance: Vec<f32> = (0..sides).flat_map(|s| [0.2 + 0.6 * (s % 7) as f32 / 7.0, 0.9]).collect();
     // Two lamps of two samples.
     let direct: Vec<f32> = (0..4 * sides).map(|i| if i % 11 == 0 { 3.0 } else { 0.1 }).collect();
-    let problem = Problem {
-        elements: &elements,
-        factors: &factors,
-        specular: None,
-        transmittance: &[],
-        reflectance: &reflectance,
-        direct: &direct,
-        samples: 2,
-        tolerance: 1e-6,
-    };
+    let problem = problem(&elements, &factors, (&reflectance, &direct), 2);
     let exact = problem.solve(Solver::Gauss).unwrap().irradiance;
     for solver in Solver::ALL {
         let found = problem.solve(solver).unwrap();
@@ -185,19 +125,26 @@ fn solvers_agree() {
 #[test]
 fn a_surface_that_creates_light_is_refused() {
     let geometry = geometry(vec![sphere(1.0)]);
-    let elements = cut(&geometry, 1.0, 1.0, true);
+    let elements = cut(&geometry, 1.0, 1.0, &|_, back| back);
     let factors = FormFactors::new(&geometry, &elements, Method::Rays(16));
     let sides = elements.sides.len();
     let (reflectance, direct) = (vec![1.2; sides], vec![1.0; sides]);
-    let problem = Problem {
-        elements: &elements,
-        factors: &factors,
-        specular: None,
-        transmittance: &[],
-        reflectance: &reflectance,
-        direct: &direct,
-        samples: 1,
-        tolerance: 1e-6,
-    };
+    let problem = problem(&elements, &factors, (&reflectance, &direct), 1);
     assert!(problem.solve(Solver::BiCgStab).unwrap_err().to_string().contains("more light"));
+}
+
+#[test]
+fn triangles_without_area_are_nothing() {
+    // A wall in three triangles of which one is a line and one a point.
+    let mut shapes = inside_of_box(vec3(3.0, 2.0, 1.0));
+    let positions = vec![Vec3::ZERO, Vec3::X * 3.0, vec3(3.0, 2.0, 0.0), Vec3::Y * 2.0, Vec3::X];
+    let indices = vec![[0, 1, 2], [0, 4, 1], [3, 3, 3], [0, 2, 3], [1, 1, 2]];
+    shapes[0] = Shape::Mesh(Mesh { positions, indices, ..Mesh::default() });
+    let geometry = geometry(shapes);
+    let elements = cut(&geometry, 0.1, 0.1, &|_, back| !back);
+    assert!((elements.total_area() - 22.0).abs() < 1e-4);
+    let factors = FormFactors::new(&geometry, &elements, Method::Rays(64));
+    let (reflectance, direct) = (vec![0.5; elements.sides.len()], vec![1.0; elements.sides.len()]);
+    let found = problem(&elements, &factors, (&reflectance, &direct), 1).solve(Solver::BiCgStab).unwrap();
+    assert!(found.irradiance.iter().all(|e| (e - 2.0).abs() < 0.02));
 }

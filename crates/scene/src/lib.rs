@@ -42,5 +42,5 @@ pub use shape::{Mesh, Placement, Shape};
 pub use skin::{ColourTexture, Map, ReliefTexture, Skin, SlopeTexture, TexturePoint};
 pub use sky::{Sky, Sun, SunPosition};
 pub use surface::{Hit, Ray, SurfacePoint, along_texture};
-pub use surface_lamp::SurfaceLamp;
+pub use surface_lamp::{SurfaceLamp, on_triangle};
 pub use texture::{Filtering, Footprint, Texture, Wrap};

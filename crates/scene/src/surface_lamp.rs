@@ -301,9 +301,10 @@ fn pick(sums: &[f32], u: [f32; 2]) -> (usize, f32, [f32; 2]) {
     (i, probability, [((u[0] - low) / probability).clamp(0.0, 1.0 - f32::EPSILON), u[1]])
 }
 
-/// A point of a triangle, uniform over its area.
+/// A point of a triangle, uniform over its area for two uniform numbers.
 #[inline(always)]
-fn on_triangle([a, b, c]: [Vec3; 3], u: [f32; 2]) -> Vec3 {
+#[must_use]
+pub fn on_triangle([a, b, c]: [Vec3; 3], u: [f32; 2]) -> Vec3 {
     let s = u[0].sqrt();
     a * (1.0 - s) + b * (s * (1.0 - u[1])) + c * (s * u[1])
 }

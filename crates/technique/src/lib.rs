@@ -5,6 +5,7 @@ mod cone_tracing;
 mod direct_light;
 mod film;
 mod filter;
+mod frustum;
 mod haze;
 mod interaction;
 mod lanes;
@@ -31,12 +32,12 @@ pub use filter::{Filter, FilterSampler};
 pub use passes::Replay;
 pub use path::{Counts, PathTracer, Probe, Query, Recorder, Vertex};
 pub use radiosity::{
-    Gather, Mechanisms, RadiosityParts, RadiosityReport, RadiositySettings, RadiositySolution, basis,
+    Gather, Mechanisms, RadiosityParts, RadiosityReport, RadiositySettings, RadiositySolution,
 };
 pub use render::{Dropped, Progress, Render, RenderError, Statistics};
 pub use sampler::Sampler;
 pub use scanline::edges;
-pub use scene_products::{products, spectral_error};
+pub use scene_products::{basis, products, spectral_error};
 pub use sequence::Sequence;
 pub use settings::{
     Antialiasing, Infinite, Interpolation, Layer, LightCentres, Settings, Shading, Shadows, Technique,

@@ -11,6 +11,7 @@
 
 use crate::cone_tracing::LEAST_COVER;
 use crate::direct_light::{Arriving, ON_LAMP, add_around, arriving_from, way_to};
+use crate::frustum::frustum_about;
 use crate::interaction::{Interaction, next_surface};
 use crate::lanes::Pass;
 use crate::media::Media;
@@ -20,38 +21,12 @@ use crate::sequence::Sequence;
 use crate::settings::{LightCentres, Settings, Technique};
 use glam::Vec3;
 use illuminant_illumination::{Blurred, IlluminationModel, Prepare};
-use illuminant_optics::frame::Frame;
 use illuminant_sampling::Lanes;
 use illuminant_scene::{ConeIndex, Hit, LampForm, Leaves, Ray, Scene, SurfacePoint};
 use std::f32::consts::FRAC_2_SQRT_PI;
 
 /// The longest chain of rays where no depth is stated: only perfect mirrors that face each other would go on.
 const DEEPEST: u32 = 100;
-
-/// Rays along the edges of a square frustum about the mirror direction, with the weights of a Gaussian of which a half-width is `gloss`
-/// (Wallace et al. 1987; book 4.5.2): they add up to 1.
-fn frustum_about(to_viewer: Vec3, gloss: f32, edge: u32) -> Vec<(Vec3, f32)> {
-    let mirrored = Vec3::new(-to_viewer.x, -to_viewer.y, to_viewer.z);
-    let frame = Frame::from_normal(mirrored);
-    // Out to where the Gaussian is a hundredth.
-    let reach = (gloss * (100f32.ln() / 2f32.ln()).sqrt()).min(1.2).tan();
-    let place = |i: u32| reach * ((i as f32 + 0.5) * 2.0 / edge as f32 - 1.0);
-    let mut rays: Vec<(Vec3, f32)> = (0..edge * edge)
-        .map(|k| {
-            let (x, y) = (place(k % edge), place(k / edge));
-            let direction = frame.to_world(Vec3::new(x, y, 1.0).normalize());
-            let angle = x.hypot(y).atan();
-            // An equal part of the square is seen under cos³.
-            let part = (-(angle / gloss.max(1e-4)).powi(2) * 2f32.ln()).exp() * angle.cos().powi(3);
-            // What would go into the surface is lost to the rest.
-            (direction, if direction.z * to_viewer.z > 0.0 { part } else { 0.0 })
-        })
-        .collect();
-    let sum: f32 = rays.iter().map(|(_, part)| part).sum();
-    rays.retain(|(_, part)| *part > 0.0);
-    rays.iter_mut().for_each(|(_, part)| *part /= sum);
-    rays
-}
 
 /// What is followed beside a solution.
 #[derive(Clone, Copy, Debug)]
@@ -417,12 +392,12 @@ impl RayTree {
         }
         let frustum = self.solved.and_then(|s| s.frustum).filter(|_| glossy);
         if let Some(edge) = frustum {
+            let returned = model.ambient(&met.at).specular;
+            let spread = OF_LOBE * model.gloss() / edge as f32;
             for (local, part) in frustum_about(met.at.to_viewer, model.gloss(), edge) {
-                let weight = model.ambient(&met.at).specular * part;
-                // One number for all lanes: no surface returns more than all.
-                let brightness = part;
-                let spread = OF_LOBE * model.gloss() / edge as f32;
-                go(met.frame.to_world(local), (weight, brightness), false, spread, Met::Seen, traced.probe);
+                // No surface returns more than all, which is one number for all lanes.
+                let weight = (returned * part, part);
+                go(met.frame.to_world(local), weight, false, spread, Met::Seen, traced.probe);
             }
         } else if glossy {
             let [u, v, choice, _] = sequence.next4();

@@ -11,7 +11,10 @@ use crate::sampler::Numbers;
 use crate::settings::{Layer, Settings, Technique};
 use illuminant_color::{RgbSystem, Triple};
 use illuminant_illumination::Illumination;
-use illuminant_sampling::{Basis, Comparison, OneNanometre, Part, Product, Products, SpectralError, xyz_by};
+use illuminant_sampling::{
+    Basis, Comparison, OneNanometre, Part, Product, Products, SamplingError, SpectralError, SpectralSampling,
+    xyz_by,
+};
 use illuminant_scene::Scene;
 use illuminant_spectrum::Curve;
 use rayon::prelude::*;
@@ -221,6 +224,15 @@ pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
         products.items[..stand_ins].iter_mut().for_each(|item| item.weight = weight);
     }
     Some(products)
+}
+
+/// The spectral sampling that settings name, fitted to a scene if it is one that is fitted.
+///
+/// # Errors
+/// [`SamplingError`] when there is no such sampling.
+pub fn basis(scene: &Arc<Scene>, settings: &Settings) -> Result<Arc<dyn Basis>, SamplingError> {
+    let sampling: SpectralSampling = settings.sampling.parse()?;
+    Ok(sampling.basis(scene.range, &|| products(scene, settings))?.into())
 }
 
 /// What a sampling costs in colour: ΔE00 between pixels integrated at 1 nm and the same paths in its samples, on paths

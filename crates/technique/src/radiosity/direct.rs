@@ -3,11 +3,13 @@
 use crate::direct_light::way_to;
 use crate::lanes::Pass;
 use glam::Vec3;
+use illuminant_illumination::{IlluminationModel, Prepare};
 use illuminant_optics::frame::Frame;
 use illuminant_optics::hemisphere;
 use illuminant_radiosity::{Elements, Kronecker, Place};
 use illuminant_sampling::Lanes;
 use illuminant_scene::{LampForm, LampSample, Ray, Scene, SurfacePoint};
+use rayon::prelude::*;
 use std::f32::consts::PI;
 
 /// Whether nothing stands between a point and a lamp that it has asked.
@@ -38,7 +40,7 @@ pub(super) fn irradiance<const N: usize, M>(
         return Lanes::default();
     };
     let cos = light.direction.dot(place.normal);
-    if cos <= 0.0 {
+    if !(cos > 0.0) {
         return Lanes::default();
     }
     if !is_lit(scene, elements, &place.point, &light) {
@@ -64,4 +66,29 @@ pub(super) fn mean<const N: usize, M>(
         sum += irradiance(scene, elements, pass, lamp, &place, [u, v]);
     }
     sum * (count as f32).recip()
+}
+
+/// The mean irradiance of every side straight from each column's lamps, in the samples of all passes.
+pub(super) fn of_sides<const N: usize, M: IlluminationModel<N> + Prepare>(
+    scene: &Scene,
+    elements: &Elements,
+    passes: &[Pass<N, M>],
+    (column_of, columns): (&[usize], usize),
+    samples: usize,
+    count: u32,
+) -> Vec<f32> {
+    let width = columns * samples;
+    let mut found = vec![0f32; elements.sides.len() * width];
+    found.par_chunks_mut(width.max(1)).enumerate().for_each(|(side, row)| {
+        for pass in passes {
+            for (lamp, &column) in column_of.iter().enumerate() {
+                let light = mean(scene, elements, pass, lamp, side as u32, count);
+                let slots = &mut row[column * samples + pass.samples.start..];
+                for (slot, v) in slots.iter_mut().zip(&light.0[..pass.samples.len()]) {
+                    *slot += v;
+                }
+            }
+        }
+    });
+    found
 }

@@ -8,10 +8,8 @@
 use super::direct;
 use super::global_cube::GlobalCube;
 use super::reflectance::{Counted, diffuse_at, of_materials};
-use super::solution::columns_of;
 use crate::lanes::Pass;
-use crate::passes::Light;
-use crate::passes::passes_of;
+use crate::passes::{Light, group_lamps, passes_of};
 use crate::settings::Settings;
 use glam::Vec3;
 use illuminant_illumination::{Illumination, IlluminationModel, Incidence, Prepare};
@@ -25,8 +23,11 @@ use std::f32::consts::{FRAC_1_PI, PI};
 use std::sync::Arc;
 
 const LANES: usize = 8;
-/// Directions drawn for each cell into which a patch sends light.
-const DRAWN: u32 = 32;
+/// Directions drawn for each cell into which a patch sends light: patches that face one way share them, so that their errors do not
+/// average out, and the more of them there are the more are drawn.
+const DRAWN: [u32; 2] = [32, 512];
+/// Bytes that directions once drawn may take; beyond, they are drawn again at every step.
+const MOST_KEPT: usize = 1 << 29;
 /// Steps of an albedo's table over the cosine.
 const COSINES: usize = 64;
 /// The most memory, bytes.
@@ -109,7 +110,10 @@ fn check(elements: &Elements, cube: GlobalCube, values: usize, glossy: usize) ->
     // What is sent, once more while it is found, and what is seen.
     let memory = cells * (2 * values * 4 + 4);
     let seconds = cells as f64 / 2.0 / 1.5e6
-        + 8.0 * (glossy * cube.len()) as f64 / 2.0 * f64::from(DRAWN) * values.div_ceil(LANES) as f64 * 8e-9;
+        + 8.0 * (glossy * cube.len()) as f64 / 2.0
+            * f64::from(DRAWN[0])
+            * values.div_ceil(LANES) as f64
+            * 8e-9;
     if memory > MOST_MEMORY || seconds > LONGEST {
         return Err(format!(
             "specular radiosity of {} patches with {} directions each would take {:.1} GiB and about {:.0} s; it is \
@@ -134,8 +138,24 @@ struct Facing {
 /// What a side sends into all cells, and by how much that exceeds what arrives.
 type Reflected = (u32, Vec<Lanes<LANES>>, f64);
 
+impl Facing {
+    /// How many directions are drawn for a cell.
+    fn draws(&self) -> u32 {
+        let [least, most] = DRAWN;
+        least.saturating_mul(self.sides.len() as u32).min(most)
+    }
+}
+
 /// Where the light comes from that a surface itself sends into a cell, and its weight.
 type Drawn<const N: usize> = Vec<(u32, Lanes<N>)>;
+
+/// What surfaces that face one way themselves make of light.
+struct Operator {
+    /// For each cell above the horizon, from which cells the light comes that they send into it.
+    drawn: Vec<Drawn<LANES>>,
+    /// What they reflect under each cosine.
+    albedo: Vec<Lanes<LANES>>,
+}
 
 /// Solves for the light of all patches in all directions.
 pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
@@ -148,7 +168,8 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
 ) -> Result<(Directional, Quality), String> {
     let told = &settings.radiosity;
     let cube = GlobalCube::new(told.cube);
-    let (groups, group_of) = columns_of(scene, basis);
+    let (groups_of, group_of) = group_lamps(basis, scene.lamps.len(), false);
+    let groups = groups_of.len();
     let passes = passes_of::<LANES, M>(scene, illumination, basis, None, &[0], Light::Lamps);
     let facing = facing(scene, elements);
     let of_side = |side: u32| scene.objects[elements.element_of(side).object as usize].material;
@@ -165,7 +186,7 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
     };
     let mut quality = Quality::default();
     for pass in &passes {
-        let mut solver = Solver { scene, elements, cube, pass, groups, group_of: &group_of, seen: &seen };
+        let solver = Solver { scene, elements, cube, pass, groups, group_of: &group_of, seen: &seen };
         solver.solve(settings, &facing, &mut found, &mut quality);
     }
     Ok((found, quality))
@@ -223,7 +244,7 @@ struct Solver<'a, M> {
 }
 
 impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
-    fn solve(&mut self, settings: &Settings, facing: &[Facing], to: &mut Directional, quality: &mut Quality) {
+    fn solve(&self, settings: &Settings, facing: &[Facing], to: &mut Directional, quality: &mut Quality) {
         let (cells, groups) = (self.cube.len(), self.groups);
         let sides = self.elements.sides.len();
         let told = &settings.radiosity;
@@ -240,22 +261,29 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
             .collect();
         let diffuse = of_materials(self.scene, self.pass, Counted::Diffuse);
         let mut sent = vec![Lanes::<LANES>::default(); sides * cells * groups];
+        let kept: Vec<Option<Operator>> = if self.memory_of_operators(facing) <= MOST_KEPT {
+            facing.iter().enumerate().map(|(number, facing)| self.operator(number, facing)).collect()
+        } else {
+            Vec::new()
+        };
         let mut history: Vec<f64> = Vec::new();
+        let mut creation = 0.0f64;
         while history.len() < STEPS {
-            // What arrives without emission by form factors of the cells, and what was solved for last of all.
             let results: Vec<Vec<Reflected>> = facing
                 .par_iter()
-                .map(|facing| {
-                    let drawn = self.drawn(facing);
+                .enumerate()
+                .map(|(number, facing)| {
+                    let drawn_again = kept.is_empty().then(|| self.operator(number, facing)).flatten();
+                    let operator = kept.get(number).map_or(drawn_again.as_ref(), Option::as_ref);
                     let of = |&side: &u32| {
-                        let (new, creation) =
-                            self.reflect(side, facing, drawn.as_ref(), &sent, &lamps, &diffuse);
+                        let (new, creation) = self.reflect(side, facing, operator, &sent, &lamps, &diffuse);
                         (side, new, creation)
                     };
                     facing.sides.par_iter().map(of).collect()
                 })
                 .collect();
-            let (mut changed, mut all, mut creation) = (0.0f64, 0.0f64, 0.0f64);
+            let (mut changed, mut all) = (0.0f64, 0.0f64);
+            creation = 0.0;
             for sides in results {
                 for (side, new, created) in sides {
                     let area = self.elements.area(side);
@@ -271,11 +299,11 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
                 }
             }
             history.push(if all > 0.0 { changed / all } else { 0.0 });
-            quality.creation = creation;
             if history[history.len() - 1] < told.tolerance.max(1e-4) {
                 break;
             }
         }
+        quality.creation = quality.creation.max(creation);
         if quality.history.len() < history.len() {
             quality.history = history;
         }
@@ -302,9 +330,15 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
         }
     }
 
-    /// For each cell above the horizon of surfaces that face one way, from which cells the light comes that they themselves send into it;
-    /// `None` where they are diffuse alone.
-    fn drawn(&self, facing: &Facing) -> Option<Vec<Drawn<LANES>>> {
+    /// About how many bytes the operators of all surfaces take.
+    fn memory_of_operators(&self, facing: &[Facing]) -> usize {
+        let glossy = facing.iter().filter(|f| is_glossy(&self.pass.materials[f.material]));
+        let entries = |f: &Facing| (f.draws() as usize).min(self.cube.len() / 8);
+        glossy.map(|f| self.cube.len() / 2 * entries(f) * size_of::<(u32, Lanes<LANES>)>()).sum()
+    }
+
+    /// What surfaces that face one way themselves make of light; `None` where they are diffuse alone.
+    fn operator(&self, number: usize, facing: &Facing) -> Option<Operator> {
         let model = &self.pass.materials[facing.material];
         if !is_glossy(model) {
             return None;
@@ -312,9 +346,10 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
         let frame = self.frame(facing);
         let of = |cell: usize| {
             // Of its own for each cell, so that not all highlights lean the same way.
-            let sequence = Kronecker::<5>::new(cell as u64 ^ 0x6472_6177);
+            let sequence = Kronecker::<5>::new((number as u64) << 32 ^ cell as u64 ^ 0x6472_6177);
             let mut found: Drawn<LANES> = Vec::new();
-            for k in 0..DRAWN {
+            let draws = facing.draws();
+            for k in 0..draws {
                 let [a, b, u, v, choice] = sequence.point(u64::from(k));
                 // All over the cell, so that a mirror sends all that belongs into it.
                 let to_viewer = frame.to_local(self.cube.direction(cell, [a, b]));
@@ -324,7 +359,7 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
                 let at = self.incidence(facing.material, to_viewer);
                 let mut add = |local: Vec3, weight: Lanes<LANES>| {
                     let from = self.cube.cell(frame.to_world(local)) as u32;
-                    let weight = weight * (DRAWN as f32).recip();
+                    let weight = weight * (draws as f32).recip();
                     match found.iter_mut().find(|(cell, _)| *cell == from) {
                         Some((_, sum)) => *sum += weight,
                         None => found.push((from, weight)),
@@ -341,7 +376,8 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
             }
             found
         };
-        Some((0..self.cube.len()).into_par_iter().map(of).collect())
+        let drawn = (0..self.cube.len()).into_par_iter().map(of).collect();
+        Some(Operator { drawn, albedo: self.albedo(facing.material) })
     }
 
     /// The light that comes to a side through a cell: of other surfaces' reflection, and of lamps and surroundings that are seen there.
@@ -380,7 +416,7 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
         &self,
         side: u32,
         facing: &Facing,
-        drawn: Option<&Vec<Drawn<LANES>>>,
+        operator: Option<&Operator>,
         sent: &[Lanes<LANES>],
         lamps: &[Vec<Lanes<LANES>>],
         diffuse: &[[Lanes<LANES>; 2]],
@@ -389,13 +425,13 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
         let normal = facing.normal;
         let model = &self.pass.materials[facing.material];
         let frame = self.frame(facing);
-        let mut arriving = vec![Lanes::<LANES>::default(); if drawn.is_some() { cells * groups } else { 0 }];
+        let mut arriving =
+            vec![Lanes::<LANES>::default(); if operator.is_some() { cells * groups } else { 0 }];
         let mut irradiance = vec![Lanes::<LANES>::default(); groups];
         // What arrives, and what of it the surface itself must send on.
         let mut came = vec![Lanes::<LANES>::default(); groups];
         let mut owed = vec![Lanes::<LANES>::default(); groups];
         let mut whole = 0.0;
-        let table = drawn.map(|_| self.albedo(facing.material));
         for cell in 0..cells {
             let direction = self.cube.direction(cell, [0.5; 2]);
             let cos = direction.dot(normal);
@@ -406,11 +442,11 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
             whole += part;
             self.arriving(side, cell, direction, sent, &mut |group, reflected, emitted| {
                 irradiance[group] += reflected * part;
-                if let Some(table) = &table {
+                if let Some(Operator { albedo, .. }) = operator {
                     let all = reflected + emitted;
                     arriving[cell * groups + group] += all;
                     came[group] += all * part;
-                    owed[group] += all * table[((cos * COSINES as f32) as usize).min(COSINES - 1)] * part;
+                    owed[group] += all * albedo[((cos * COSINES as f32) as usize).min(COSINES - 1)] * part;
                 }
             });
         }
@@ -418,12 +454,11 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
         let full = PI / whole;
         let [reflectance, transmittance] = diffuse[facing.material];
         let behind = self.elements.opposite(side).filter(|_| !transmittance.is_zero());
-        let mut base: Vec<Lanes<LANES>> = (0..groups)
+        let base: Vec<Lanes<LANES>> = (0..groups)
             .map(|group| {
                 let e = irradiance[group] * full + lamps[side as usize][group];
                 let mut sum = reflectance * e;
                 if let Some(behind) = behind {
-                    // Of the other side only what lamps bring is known here; the rest follows as it is sent.
                     sum += transmittance * (lamps[behind as usize][group] + self.others(behind, sent, group));
                 }
                 sum * FRAC_1_PI
@@ -434,7 +469,7 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
         for cell in 0..cells {
             let direction = self.cube.direction(cell, [0.5; 2]);
             let cos = direction.dot(normal);
-            let Some(drawn) = drawn.filter(|_| cos > 0.0) else { continue };
+            let Some(Operator { drawn, .. }) = operator.filter(|_| cos > 0.0) else { continue };
             for (from, weight) in &drawn[cell] {
                 for group in 0..groups {
                     new[cell * groups + group] += *weight * arriving[*from as usize * groups + group];
@@ -468,7 +503,6 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
                 }
             }
         }
-        base.clear();
         (new, creation)
     }
 

@@ -10,6 +10,7 @@ use illuminant_illumination::{IlluminationModel, Prepare};
 use illuminant_radiosity::{Elements, Points};
 use illuminant_sampling::Lanes;
 use illuminant_scene::{Hit, LampForm, Scene, SurfacePoint};
+use rayon::prelude::*;
 use std::f32::consts::FRAC_1_PI;
 use std::sync::Arc;
 
@@ -46,38 +47,37 @@ impl<const N: usize> Field<N> {
             group[column] = group_of[lamp];
         }
         let own = pass.own_samples();
-        // Of each side the light of all columns in the lanes of this pass, group by group, and from that of points.
-        let at_points = |back: bool, of: &(dyn Fn(usize) -> f32 + Sync)| -> Vec<Lanes<N>> {
-            let sums: Vec<f32> = (0..solution.elements.sides.len())
-                .flat_map(|side| {
-                    let mut sums = vec![0f32; groups * N];
-                    for column in 0..solution.columns {
-                        for (lane, sample) in own.clone().enumerate() {
-                            let at = column * samples + sample;
-                            sums[group[column] * N + lane] += of(side * width + at) * light[column][sample];
-                        }
+        // Of each side the light of all columns in the lanes of this pass, group by group, and from that of points, on either side.
+        let at_points = |of: &(dyn Fn(usize) -> f32 + Sync)| -> [Vec<Lanes<N>>; 2] {
+            let mut sums = vec![0f32; solution.elements.sides.len() * groups * N];
+            sums.par_chunks_mut(groups * N).enumerate().for_each(|(side, sums)| {
+                for column in 0..solution.columns {
+                    for (lane, sample) in own.clone().enumerate() {
+                        let at = side * width + column * samples + sample;
+                        sums[group[column] * N + lane] += of(at) * light[column][sample];
                     }
-                    sums
-                })
-                .collect();
-            let of = |element| {
-                let side = solution.elements.side(element, back)?;
-                Some(&sums[side as usize * groups * N..][..groups * N])
-            };
-            let flat = solution.points.values(groups * N, &of);
-            flat.chunks(N).map(|v| Lanes::from_fn(|i| v[i])).collect()
+                }
+            });
+            [false, true].map(|back| {
+                let of = |element| {
+                    let side = solution.elements.side(element, back)?;
+                    Some(&sums[side as usize * groups * N..][..groups * N])
+                };
+                let flat = solution.points.values(groups * N, &of);
+                flat.chunks(N).map(|v| Lanes::from_fn(|i| v[i])).collect()
+            })
         };
         let less = |at: usize| match settings.radiosity.gather {
             // Lamps are asked again.
             Gather::Direct => solution.direct[at] - solution.caustics.get(at).copied().unwrap_or(0.0),
             _ => 0.0,
         };
-        let values = [false, true].map(|back| at_points(back, &|at| solution.irradiance[at] - less(at)));
+        let values = at_points(&|at| solution.irradiance[at] - less(at));
         // What is all around can only be met by chance, so that a path cannot leave it out by halves.
         let known = settings.radiosity.gather == Gather::Full
             && !solution.caustics.is_empty()
             && !scene.lamps.iter().any(|lamp| matches!(lamp.form, LampForm::Uniform));
-        let caustics = known.then(|| [false, true].map(|back| at_points(back, &|at| solution.caustics[at])));
+        let caustics = known.then(|| at_points(&|at| solution.caustics[at]));
         Self {
             elements: Arc::clone(&solution.elements),
             points: Arc::clone(&solution.points),

@@ -5,6 +5,7 @@
 //! are; what surfaces send on goes by form factors. The solution is kept for one unit of light in every sample from each lamp, so
 //! that other lamps are a matter of multiplying.
 
+mod cutting;
 mod direct;
 mod directional;
 mod field;
@@ -14,12 +15,12 @@ mod sensor;
 mod settings;
 mod solution;
 mod specular;
+mod update;
 mod view;
 
 pub(crate) use directional::Directional;
 pub(crate) use field::Field;
 pub(crate) use reflectance::{Counted, diffuse_at};
-pub use sensor::basis;
 pub use settings::{Gather, Mechanisms, RadiositySettings};
 pub use solution::{RadiosityParts, RadiosityReport, RadiositySolution};
 pub(crate) use view::{View, seen};

@@ -10,6 +10,7 @@ use illuminant_optics::hemisphere;
 use illuminant_radiosity::{Elements, Kronecker};
 use illuminant_sampling::Lanes;
 use illuminant_scene::{Ray, Scene};
+use rayon::prelude::*;
 use std::f32::consts::PI;
 
 /// Directions over which a model's reflectance is averaged.
@@ -112,4 +113,38 @@ pub(super) fn of_textured_side<const N: usize, M: IlluminationModel<N> + Prepare
         sums.iter_mut().zip(found).for_each(|(sum, f)| *sum += f);
     }
     sums.map(|sum| (sum * (PLACES as f32).recip()).map(|r| r.min(1.0)))
+}
+
+/// Of each side the reflectance in every sample, and the transmittance, if any surface has one.
+pub(super) fn of_sides<const N: usize, M: IlluminationModel<N> + Prepare>(
+    scene: &Scene,
+    elements: &Elements,
+    passes: &[Pass<N, M>],
+    samples: usize,
+    counted: Counted,
+) -> (Vec<f32>, Vec<f32>) {
+    let of_materials: Vec<_> = passes.iter().map(|pass| of_materials(scene, pass, counted)).collect();
+    let mut found = vec![0f32; 2 * elements.sides.len() * samples];
+    found.par_chunks_mut(2 * samples).enumerate().for_each(|(side, rows)| {
+        let object = elements.element_of(side as u32).object;
+        let material = scene.objects[object as usize].material;
+        let (reflected, transmitted) = rows.split_at_mut(samples);
+        for (pass, of_materials) in passes.iter().zip(&of_materials) {
+            let skin = &scene.skins[material];
+            let [r, t] = if skin.colour.is_some() || skin.slope.is_some() {
+                of_textured_side(scene, elements, pass, side as u32, counted)
+            } else {
+                of_materials[material]
+            };
+            reflected[pass.samples.clone()].copy_from_slice(&r.0[..pass.samples.len()]);
+            transmitted[pass.samples.clone()].copy_from_slice(&t.0[..pass.samples.len()]);
+        }
+    });
+    let rows = found.chunks(samples);
+    let reflected: Vec<f32> = rows.clone().step_by(2).flatten().copied().collect();
+    let mut transmitted: Vec<f32> = rows.skip(1).step_by(2).flatten().copied().collect();
+    if transmitted.iter().all(|t| *t == 0.0) {
+        transmitted.clear();
+    }
+    (reflected, transmitted)
 }

@@ -5,7 +5,6 @@ use super::reflectance::Counted;
 use super::solution::RadiositySolution;
 use super::specular::{Followed, Scratch};
 use crate::passes::{Light, passes_of};
-use crate::settings::Settings;
 use glam::Vec3;
 use illuminant_illumination::{General, Illumination};
 use illuminant_optics::frame::Frame;
@@ -35,8 +34,7 @@ impl RadiositySolution {
         let light = self.light(scene);
         let maps: Vec<_> = (0..lamps).map(|lamp| self.basis.to_xyz(lamp)).collect();
         let width = self.columns * self.samples;
-        let lamp_of: Vec<usize> =
-            (0..self.columns).map(|c| self.column_of.iter().position(|&of| of == c).unwrap_or(0)).collect();
+        let lamp_of = self.lamps_of_columns();
         let radiosity = self.radiosity();
         let followed = (self.counted == Counted::Diffuse).then(|| Followed {
             scene,
@@ -119,6 +117,11 @@ impl RadiositySolution {
         places.par_iter().enumerate().map(at).collect()
     }
 
+    /// A lamp of each column: those of one column share a map to XYZ.
+    fn lamps_of_columns(&self) -> Vec<usize> {
+        (0..self.columns).map(|c| self.column_of.iter().position(|&of| of == c).unwrap_or(0)).collect()
+    }
+
     /// The radiosity of a side for each column of lamps in every sample.
     fn radiosity_of(&self, side: u32) -> Vec<f32> {
         let width = self.columns * self.samples;
@@ -140,8 +143,7 @@ impl RadiositySolution {
     pub fn radiance_of_sides(&self, scene: &Scene) -> Vec<[f64; 3]> {
         let light = self.light(scene);
         let maps: Vec<_> = (0..scene.lamps.len()).map(|lamp| self.basis.to_xyz(lamp)).collect();
-        let lamp_of: Vec<usize> =
-            (0..self.columns).map(|c| self.column_of.iter().position(|&of| of == c).unwrap_or(0)).collect();
+        let lamp_of = self.lamps_of_columns();
         (0..self.elements.sides.len())
             .into_par_iter()
             .map(|side| {
@@ -167,17 +169,4 @@ impl RadiositySolution {
             })
             .collect()
     }
-}
-
-/// The spectral sampling that settings name, for a scene.
-///
-/// # Errors
-/// [`crate::RenderError`] when there is no such sampling.
-pub fn basis(
-    scene: &std::sync::Arc<Scene>,
-    settings: &Settings,
-) -> Result<std::sync::Arc<dyn illuminant_sampling::Basis>, crate::RenderError> {
-    let sampling: illuminant_sampling::SpectralSampling = settings.sampling.parse()?;
-    let products = || crate::scene_products::products(scene, settings);
-    Ok(sampling.basis(scene.range, &products)?.into())
 }

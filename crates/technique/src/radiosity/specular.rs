@@ -45,6 +45,14 @@ impl Scratch {
     pub fn new(patches: usize) -> Self {
         Self { straight: Row::new(patches), place: vec![u32::MAX; patches] }
     }
+
+    /// Hands over the row, and is ready for the next.
+    fn finish(&mut self, seen: &mut Seen) {
+        for &patch in &seen.columns {
+            self.place[patch as usize] = u32::MAX;
+        }
+        seen.straight = self.straight.take();
+    }
 }
 
 /// The flat mirrors of a scene, and what each reflects under how many cosines, in the lanes of each pass.
@@ -155,6 +163,15 @@ pub(super) struct Followed<'a, const N: usize, M> {
 }
 
 impl<const N: usize, M: IlluminationModel<N> + Prepare> Followed<'_, N, M> {
+    fn nothing(&self) -> Seen {
+        Seen {
+            straight: Vec::new(),
+            columns: Vec::new(),
+            values: Vec::new(),
+            lamps: vec![0.0; self.columns * self.samples],
+        }
+    }
+
     /// What a side sees.
     pub fn look(&self, side: u32, scratch: &mut Scratch) -> Seen {
         let mut rays = Vec::new();
@@ -168,22 +185,14 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Followed<'_, N, M> {
 
     /// What is seen along rays, which draw where they go on from the numbers of `stream`.
     pub fn look_along(&self, rays: &[Direction], stream: u64, scratch: &mut Scratch) -> Seen {
-        let mut seen = Seen {
-            straight: Vec::new(),
-            columns: Vec::new(),
-            values: Vec::new(),
-            lamps: vec![0.0; self.columns * self.samples],
-        };
+        let mut seen = self.nothing();
         for (number, pass) in self.passes.iter().enumerate() {
             for (k, Direction { ray, part }) in rays.iter().enumerate() {
                 let sequence = Sequence::new(0, stream, k as u64, 0);
                 self.follow(pass, number == 0, *ray, *part, sequence, scratch, &mut seen);
             }
         }
-        for &patch in &seen.columns {
-            scratch.place[patch as usize] = u32::MAX;
-        }
-        seen.straight = scratch.straight.take();
+        scratch.finish(&mut seen);
         seen
     }
 
@@ -195,12 +204,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Followed<'_, N, M> {
         mirrors: &Mirrors<N>,
         scratch: &mut Scratch,
     ) -> Seen {
-        let mut seen = Seen {
-            straight: Vec::new(),
-            columns: Vec::new(),
-            values: Vec::new(),
-            lamps: vec![0.0; self.columns * self.samples],
-        };
+        let mut seen = self.nothing();
         let scene = self.scene;
         let goes_on = |chain: &[Reflection]| {
             let weight: f32 = chain.iter().map(|(k, _)| mirrors.brightest[*k as usize]).product();
@@ -248,10 +252,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Followed<'_, N, M> {
             }
         };
         look_into_mirrors(&scene.geometry, self.elements, &mirrors.all, side, cube, &goes_on, &mut each);
-        for &patch in &seen.columns {
-            scratch.place[patch as usize] = u32::MAX;
-        }
-        seen.straight = scratch.straight.take();
+        scratch.finish(&mut seen);
         seen
     }
 
