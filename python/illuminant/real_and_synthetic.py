@@ -20,7 +20,7 @@ import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from illuminant.errors import DataError, UsageError
+from illuminant.errors import UsageError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["Radiometry", "Verdict", "judge", "radiometry", "read_measurements", "sheet", "trials"]
+__all__ = ["Radiometry", "Verdict", "judge", "radiometry", "sheet", "trials"]
 
 Side = Literal["left", "right"]
 
@@ -71,39 +71,6 @@ class Verdict:
     interval: tuple[float, float]
     p_value: float
     guessing: bool
-
-
-def read_measurements(
-    path: str | os.PathLike[str],
-) -> tuple[list[list[float]], list[list[float]], list[float]]:
-    """Points, directions and lux from a CSV file with the columns x, y, z (m), nx, ny, nz and illuminance_lx.
-
-    Raises:
-        DataError: the file cannot be read, or a line lacks a number; the sentence names the line.
-    """
-    import csv
-
-    name = os.fspath(path)
-    points, normals, lux = [], [], []
-    try:
-        with open(name, encoding="utf-8-sig", newline="") as stream:
-            for line, row in enumerate(csv.DictReader(stream), start=2):
-                try:
-                    numbers = [float(row[key]) for key in ("x", "y", "z", "nx", "ny", "nz", "illuminance_lx")]
-                except (KeyError, TypeError, ValueError):
-                    raise DataError(
-                        f"{name}:{line}: expected numbers in the columns x, y, z, nx, ny, nz and illuminance_lx."
-                    ) from None
-                if not all(map(math.isfinite, numbers)) or numbers[6] <= 0:
-                    raise DataError(f"{name}:{line}: numbers must be finite, and illuminance above 0.")
-                points.append(numbers[:3])
-                normals.append(numbers[3:6])
-                lux.append(numbers[6])
-    except (OSError, UnicodeDecodeError) as error:
-        raise DataError(f"{name} cannot be read as a table: {error}.") from error
-    if not points:
-        raise DataError(f"{name} holds no measurements.")
-    return points, normals, lux
 
 
 def radiometry(

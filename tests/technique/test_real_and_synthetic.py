@@ -8,7 +8,8 @@ import pytest
 
 from illuminant import Image, Scene, radiosity
 from illuminant.errors import DataError, UsageError
-from illuminant.real_and_synthetic import judge, radiometry, read_measurements, sheet, trials
+from illuminant.real_and_synthetic import judge, radiometry, sheet, trials
+from illuminant.sensor_file import read
 
 
 def test_measurements_of_a_known_lamp_are_met(tmp_path: Path) -> None:
@@ -29,12 +30,13 @@ def test_measurements_of_a_known_lamp_are_met(tmp_path: Path) -> None:
     table = tmp_path / "meter.csv"
     lines = [f"{x},{y},{z},0,1,0,{e}" for (x, y, z), e in zip(places, lux, strict=True)]
     table.write_text("x,y,z,nx,ny,nz,illuminance_lx\n" + "\n".join(lines) + "\n")
-    found = radiometry(solution, *read_measurements(table))
+    meter = read(table, measured=True)
+    found = radiometry(solution, meter.points, meter.normals, meter.illuminance_lx)
     # Eight samples are not quite the observer's curve.
     assert found.largest < 0.02, found.errors
     table.write_text("x,y,z,nx,ny,nz,illuminance_lx\n0,0,0,0,1,0,dark\n")
     with pytest.raises(DataError, match=r"meter\.csv:2"):
-        read_measurements(table)
+        read(table, measured=True)
 
 
 def test_the_sheet_shows_both_and_names_neither(tmp_path: Path) -> None:

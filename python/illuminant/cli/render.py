@@ -8,7 +8,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from illuminant.cli.options import Exposure, Json, SceneFile
+from illuminant.cli.options import (
+    Adaptive,
+    Elements,
+    Exposure,
+    FormFactors,
+    Gather,
+    Json,
+    LightSamples,
+    Patches,
+    SceneFile,
+    Solver,
+)
 
 if TYPE_CHECKING:
     from illuminant.image import Image, Saved
@@ -161,56 +172,13 @@ def render(
             help="Pixels above which scanline techniques subdivide a polygon (never).",
         ),
     ] = None,
-    elements: Annotated[
-        int | None,
-        typer.Option(
-            "--elements", metavar="N", help="About how many elements radiosity cuts surfaces into (6000)."
-        ),
-    ] = None,
-    patches: Annotated[
-        int | None,
-        typer.Option(
-            "--patches", metavar="N", help="About how many patches these make, which send light on (as many)."
-        ),
-    ] = None,
-    adaptive: Annotated[
-        float | None,
-        typer.Option(
-            "--adaptive",
-            metavar="F",
-            help="Cut elements again about which direct light differs by more than this fraction (never).",
-        ),
-    ] = None,
-    form_factors: Annotated[
-        str | None,
-        typer.Option(
-            "--form-factors",
-            metavar="HOW",
-            help="How form factors are found: rays:N, hemicube:N, scanline:N, area:N (rays:1024).",
-        ),
-    ] = None,
-    solver: Annotated[
-        str | None,
-        typer.Option(
-            "--solver",
-            metavar="NAME",
-            help="How radiosity is solved: bicgstab, gauss-seidel, gauss, progressive (bicgstab).",
-        ),
-    ] = None,
-    light_samples: Annotated[
-        int | None,
-        typer.Option(
-            "--light-samples", metavar="N", help="At how many places of an element each lamp is asked (64)."
-        ),
-    ] = None,
-    gather: Annotated[
-        str | None,
-        typer.Option(
-            "--gather",
-            metavar="HOW",
-            help="What a pixel makes of radiosity: none shows it, direct asks lamps again, full looks around (none).",
-        ),
-    ] = None,
+    elements: Elements = None,
+    patches: Patches = None,
+    adaptive: Adaptive = None,
+    form_factors: FormFactors = None,
+    solver: Solver = None,
+    light_samples: LightSamples = None,
+    gather: Gather = None,
     mechanisms: Annotated[
         str | None,
         typer.Option(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from illuminant.cli.options import Exposure, Json
+from illuminant.cli.options import Exposure, Gather, Json
 
 if TYPE_CHECKING:
     from illuminant.radiosity import Solution
@@ -38,14 +38,7 @@ def show(
     samples: Annotated[
         int | None, typer.Option("--samples", metavar="N", help="Samples of each pixel (16).")
     ] = None,
-    gather: Annotated[
-        str | None,
-        typer.Option(
-            "--gather",
-            metavar="HOW",
-            help="What a pixel makes of the solution: none shows it, direct asks lamps, full looks around (none).",
-        ),
-    ] = None,
+    gather: Gather = None,
     exposure: Exposure = None,
     grid: Annotated[
         str | None,
@@ -164,47 +157,21 @@ def _grid(text: str) -> list[list[float]]:
     return points
 
 
-def _sensors(path: Path) -> tuple[list[list[float]], list[list[float]]]:
-    import csv
-
-    from illuminant.errors import DataError
-
-    points, normals = [], []
-    try:
-        with open(path, encoding="utf-8-sig", newline="") as stream:
-            for number, row in enumerate(csv.DictReader(stream), start=2):
-                try:
-                    points.append([float(row[key]) for key in ("x", "y", "z")])
-                    normals.append([float(row.get(key) or default) for key, default in _FACING])
-                except (KeyError, TypeError, ValueError):
-                    raise DataError(
-                        f"{path}:{number}: expected numbers in the columns x, y, z and, if you like, nx, ny, nz."
-                    ) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise DataError(f"{path} cannot be read as a table: {error}.") from error
-    if not points:
-        raise DataError(f"{path} holds no sensors.")
-    return points, normals
-
-
-_FACING = (("nx", "0"), ("ny", "1"), ("nz", "0"))
-
-
 def _write_illuminance(
     solution: Solution, path: Path, grid: str | None, sensors: Path | None
 ) -> dict[str, float]:
     import numpy as np
 
     from illuminant import output as files
+    from illuminant.sensor_file import read
 
-    up = solution.scene.frame.get("up", "y")
-    if grid is not None:
-        points = _grid(grid)
-        facing = [0.0, 0.0, 1.0] if up == "z" else [0.0, 1.0, 0.0]
-        normals = [facing] * len(points)
+    facing = (0.0, 0.0, 1.0) if solution.scene.frame.get("up") == "z" else (0.0, 1.0, 0.0)
+    if sensors is not None:
+        table = read(sensors, up=facing)
+        points, normals = table.points, table.normals
     else:
-        assert sensors is not None
-        points, normals = _sensors(sensors)
+        points = _grid(grid or "")
+        normals = [list(facing)] * len(points)
     xyz = solution.irradiance_xyz(points, normals)
     lines = ["x,y,z,nx,ny,nz,illuminance_lx,X,Z"]
     for place, normal, (x, y, z) in zip(points, normals, xyz, strict=True):

@@ -7,7 +7,16 @@ from typing import Annotated
 
 import typer
 
-from illuminant.cli.options import Json, SceneFile
+from illuminant.cli.options import (
+    Adaptive,
+    Elements,
+    FormFactors,
+    Json,
+    LightSamples,
+    Patches,
+    SceneFile,
+    Solver,
+)
 
 __all__ = ["solve"]
 
@@ -28,46 +37,12 @@ def solve(
             help="radiosity, or hybrid, which follows mirrors and glass too (the scene's, or radiosity).",
         ),
     ] = None,
-    elements: Annotated[
-        int | None,
-        typer.Option("--elements", metavar="N", help="About how many elements surfaces are cut into (6000)."),
-    ] = None,
-    patches: Annotated[
-        int | None,
-        typer.Option(
-            "--patches", metavar="N", help="About how many patches these make, which send light on (as many)."
-        ),
-    ] = None,
-    adaptive: Annotated[
-        float | None,
-        typer.Option(
-            "--adaptive",
-            metavar="F",
-            help="Cut elements again about which direct light differs by more than this fraction (never).",
-        ),
-    ] = None,
-    form_factors: Annotated[
-        str | None,
-        typer.Option(
-            "--form-factors",
-            metavar="HOW",
-            help="How form factors are found: rays:N, hemicube:N, scanline:N, area:N (rays:1024).",
-        ),
-    ] = None,
-    solver: Annotated[
-        str | None,
-        typer.Option(
-            "--solver",
-            metavar="NAME",
-            help="How the equations are solved: bicgstab, gauss-seidel, gauss, progressive (bicgstab).",
-        ),
-    ] = None,
-    light_samples: Annotated[
-        int | None,
-        typer.Option(
-            "--light-samples", metavar="N", help="At how many places of an element each lamp is asked (64)."
-        ),
-    ] = None,
+    elements: Elements = None,
+    patches: Patches = None,
+    adaptive: Adaptive = None,
+    form_factors: FormFactors = None,
+    solver: Solver = None,
+    light_samples: LightSamples = None,
     illumination: Annotated[
         str | None,
         typer.Option(

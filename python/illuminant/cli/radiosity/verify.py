@@ -38,10 +38,12 @@ def verify(
     """
     from illuminant import radiosity
     from illuminant.cli.report import emit_json, note
-    from illuminant.real_and_synthetic import radiometry, read_measurements
+    from illuminant.real_and_synthetic import radiometry
+    from illuminant.sensor_file import read
 
-    points, normals, lux = read_measurements(measured)
-    found = radiometry(radiosity.Solution.load(solution), points, normals, lux)
+    table = read(measured, measured=True)
+    loaded = radiosity.Solution.load(solution)
+    found = radiometry(loaded, table.points, table.normals, table.illuminance_lx)
     if json:
         emit_json(
             {
