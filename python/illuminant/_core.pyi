@@ -350,11 +350,36 @@ class Scene:
 def pairs() -> list[tuple[str, str, Literal["sensible", "warned", "refused"], str]]:
     """Every technique with every illumination model: names, verdict, reason."""
 
+class Solution:
+    """The light between the surfaces of a scene (`illuminant.radiosity`)."""
+
+    def __init__(self, scene: Scene, settings: str) -> None:
+        """Solves for it, as settings (JSON) say."""
+    @staticmethod
+    def restored(scene: Scene, settings: str, fitted_to: Scene, parts: dict[str, Any]) -> Solution:
+        """A solution from its `parts`; `fitted_to` is the scene to which its spectral samples were fitted."""
+    def parts(self) -> dict[str, Any]:
+        """What of it cannot be found again without much work."""
+    def repainted(self, scene: Scene, settings: str) -> Solution:
+        """The solution of the same surfaces with the materials of another scene."""
+    def moved(self, scene: Scene, settings: str, objects: list[int]) -> tuple[Solution, int]:
+        """The solution after objects have moved, and how many rows of form factors were found again."""
+    def illuminance(
+        self, scene: Scene, points: NDArray[np.float64], normals: NDArray[np.float64], samples: int
+    ) -> NDArray[np.float64]:
+        """XYZ of the irradiance at points that face normals, (n, 3); Y in lx."""
+    def mesh(self, scene: Scene) -> dict[str, Any]:
+        """The elements as a mesh, with what their sides and corners send."""
+    def report(self) -> dict[str, Any]:
+        """How it came about."""
+
 class Render:
     """A render under way: runs follow each other, and the film accumulates."""
 
-    def __init__(self, scene: Scene, settings: str) -> None:
-        """A render of a scene with settings (JSON), and an empty film."""
+    def __init__(self, scene: Scene, settings: str, solution: Solution | None = None) -> None:
+        """A render of a scene with settings (JSON), and an empty film; with the light between surfaces, if it is known."""
+    def solution(self) -> Solution | None:
+        """The light between surfaces, if the technique has solved for it."""
     def run(self, first: int, last: int, progress: Callable[[float], object] | None = None) -> bool:
         """Renders samples first..last of every pixel; False when `progress` returned False and so cancelled it."""
     def spectral_error(self) -> dict[str, Any]:
