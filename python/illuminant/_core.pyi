@@ -377,7 +377,7 @@ class Render:
     """A render under way: runs follow each other, and the film accumulates."""
 
     def __init__(self, scene: Scene, settings: str, solution: Solution | None = None) -> None:
-        """A render of a scene with settings (JSON), and an empty film; with light between surfaces that is solved for."""
+        """A render of a scene with settings (JSON), and an empty film; with light between surfaces, if it is known."""
     def solution(self) -> Solution | None:
         """The light between surfaces, if the technique has solved for it."""
     def run(self, first: int, last: int, progress: Callable[[float], object] | None = None) -> bool:

@@ -264,7 +264,8 @@ impl PathTracer {
                 primary.surface = Some((distance, hit.object, point.normal));
             }
             let goes_on = segment < self.depth
-                && !self.gather(scene, pass, &path, (&hit, &point, distance), &mut sequence, radiance)
+                && !(pass.field.is_some()
+                    && self.gather(scene, pass, &path, (&hit, &point, distance), &mut sequence, radiance))
                 && self.scatter(
                     scene,
                     pass,
@@ -294,7 +295,7 @@ impl PathTracer {
     }
 
     /// Takes what has been solved for where a path that looks around from a surface meets a diffuse one (final gather): whether it did.
-    #[inline(always)]
+    #[inline(never)]
     fn gather<const N: usize, M: IlluminationModel<N> + Prepare>(
         &self,
         scene: &Scene,
@@ -309,19 +310,21 @@ impl PathTracer {
         if !is_diffuse(&scene.materials[material].surface) {
             return false;
         }
-        let seen = |sequence: &mut Sequence| {
-            radiosity::seen(scene, pass, field, (&path.ray, hit, point), path.cone[0], sequence).0
-        };
+        // Nearer than the solution is detailed the path itself knows better.
+        let gathers = path.looks_around && distance >= field.detail(hit, point.position);
+        let by_others = field.has_caustics() && (path.from_diffuse || !path.looks_around);
+        if !gathers && !by_others {
+            return false;
+        }
+        let (returned, _) =
+            radiosity::seen(scene, pass, field, (&path.ray, hit, point), path.cone[0], sequence);
         let mut add = |group: usize, sent: Lanes<N>| {
             radiance[path.light.bundle + group] += path.light.throughput * sent;
         };
-        // Nearer than the solution is detailed the path itself knows better.
-        if path.looks_around && distance >= field.detail(hit, point.position) {
-            return field.radiance(seen(sequence), hit, point, path.ray.direction, &mut add);
+        if gathers {
+            return field.radiance(returned, hit, point, path.ray.direction, &mut add);
         }
-        if field.has_caustics() && (path.from_diffuse || !path.looks_around) {
-            field.caustic(seen(sequence), hit, point, path.ray.direction, &mut add);
-        }
+        field.caustic(returned, hit, point, path.ray.direction, &mut add);
         false
     }
 

@@ -17,6 +17,7 @@ use illuminant_scene::{Hit, Ray, Scene, SurfacePoint};
 use std::f32::consts::FRAC_1_PI;
 
 /// What a surface returns of even light where a ray meets it, and its normal for shading on that side.
+#[inline(never)]
 pub(crate) fn seen<const N: usize, M: IlluminationModel<N> + Prepare>(
     scene: &Scene,
     pass: &Pass<N, M>,
