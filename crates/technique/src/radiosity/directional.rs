@@ -7,7 +7,7 @@
 
 use super::direct;
 use super::global_cube::GlobalCube;
-use super::reflectance::{Counted, diffuse_at, of_materials};
+use super::reflectance::{Counted, of_materials, specular_albedo};
 use crate::lanes::Pass;
 use crate::passes::{Light, group_lamps, passes_of};
 use crate::settings::Settings;
@@ -554,22 +554,13 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
         }
     }
 
-    /// What a material itself reflects of light under each cosine, by reciprocity what it returns into it of even light.
+    /// What a material itself reflects of light under each cosine.
     fn albedo(&self, material: usize) -> Vec<Lanes<LANES>> {
-        let model = &self.pass.materials[material];
-        let surface = &self.scene.materials[material].surface;
-        (0..COSINES)
-            .map(|i| {
-                let cos = (i as f32 + 0.5) / COSINES as f32;
-                let at = self.incidence(material, Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos));
-                let all = diffuse_at(model, &at, surface, Counted::All)[0];
-                let diffuse = diffuse_at(model, &at, surface, Counted::Diffuse)[0];
-                let mut sum = all.zip(diffuse, |a, d| (a - d).max(0.0));
-                for lobe in model.discrete_lobes(&at).iter().filter(|lobe| !lobe.transmitted) {
-                    sum += lobe.weight;
-                }
-                sum
-            })
-            .collect()
+        let under = |i: usize| {
+            let cos = (i as f32 + 0.5) / COSINES as f32;
+            let at = self.incidence(material, Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos));
+            specular_albedo(&self.pass.materials[material], &at, 1024)
+        };
+        (0..COSINES).into_par_iter().map(under).collect()
     }
 }

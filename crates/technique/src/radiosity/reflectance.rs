@@ -15,6 +15,8 @@ use std::f32::consts::PI;
 
 /// Directions over which a model's reflectance is averaged.
 const DIRECTIONS: u64 = 64;
+/// Directions that are drawn for each of them.
+const DRAWS: u32 = 256;
 /// Places of a side at which a texture is looked at.
 const PLACES: u64 = 16;
 
@@ -50,6 +52,29 @@ pub(crate) fn diffuse_at<const N: usize, M: IlluminationModel<N>>(
     [all, Lanes::default()]
 }
 
+/// What a surface itself reflects of light from one direction, by reciprocity what it returns into it of even light: the mean weight of
+/// directions drawn from its model, and its mirror's. (A model's ambient light is near it, and no more.)
+pub(super) fn specular_albedo<const N: usize, M: IlluminationModel<N>>(
+    model: &M,
+    at: &Incidence<'_, N>,
+    draws: u32,
+) -> Lanes<N> {
+    let mut sum = Lanes::default();
+    if model.follows_gloss() {
+        let sequence = Kronecker::<3>::new(0x616c_6265);
+        for k in 0..draws {
+            if let Some(drawn) = model.gloss_ray(at, sequence.point(u64::from(k))) {
+                sum += if drawn.transmitted { Lanes::default() } else { drawn.weight };
+            }
+        }
+        sum *= (draws as f32).recip();
+    } else {
+        sum = model.ambient(at).specular;
+    }
+    let mirrored = model.discrete_lobes(at).into_iter().filter(|lobe| !lobe.transmitted);
+    mirrored.fold(sum, |sum, lobe| sum + lobe.weight)
+}
+
 /// What a surface returns of even light from everywhere, as the mean over all directions in which it is returned: its bihemispherical
 /// reflectance and transmittance.
 fn of_model<const N: usize, M: IlluminationModel<N>>(
@@ -62,12 +87,10 @@ fn of_model<const N: usize, M: IlluminationModel<N>>(
     let mut sums = [Lanes::default(); 2];
     for k in 0..DIRECTIONS {
         let at = Incidence { to_viewer: Vec3::from(hemisphere::cosine(sequence.point(k))), ..*at };
-        let found = diffuse_at(model, &at, surface, counted);
+        let found = diffuse_at(model, &at, surface, Counted::Diffuse);
         sums.iter_mut().zip(found).for_each(|(sum, f)| *sum += f);
         if counted == Counted::All {
-            for lobe in model.discrete_lobes(&at).into_iter().filter(|lobe| !lobe.transmitted) {
-                sums[0] += lobe.weight;
-            }
+            sums[0] += specular_albedo(model, &at, DRAWS);
         }
     }
     sums.map(|sum| (sum * (DIRECTIONS as f32).recip()).map(|r| r.min(1.0)))
