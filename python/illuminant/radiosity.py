@@ -314,7 +314,8 @@ class Solution:
 
         name = os.fspath(path)
         try:
-            with np.load(name, allow_pickle=False) as data:
+            # NumPy leaves a file that it opened itself open when the file is damaged.
+            with open(name, "rb") as stream, np.load(stream, allow_pickle=False) as data:
                 arrays = {key: data[key] for key in data.files}
             header = json.loads(arrays.pop("header").tobytes())
             if header["format"] != FORMAT:

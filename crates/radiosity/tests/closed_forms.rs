@@ -1,14 +1,14 @@
 //! Form factors of every method against closed forms, and enclosures with closed-form factors.
 
-mod common;
+mod still_scenes;
 
-use common::{cut, geometry, inside_of_box, problem, rectangle};
 use glam::{Vec3, vec3};
 use illuminant_radiosity::form_factor::{
     coaxial_discs, parallel_rectangles, perpendicular_rectangles, point_to_disc,
 };
 use illuminant_radiosity::{Elements, FormFactors, Method, Problem, Solver, Sparse};
 use illuminant_scene::{Mesh, Shape};
+use still_scenes::{cut, geometry, inside_of_box, problem, rectangle};
 
 const SIZE: [f64; 3] = [3.0, 2.0, 1.0];
 

@@ -1,11 +1,11 @@
 //! Closed enclosures against their algebraic solutions.
 
-mod common;
+mod still_scenes;
 
-use common::{cut, geometry, inside_of_box, problem};
 use glam::{Mat3, Vec3, vec3};
 use illuminant_radiosity::{FormFactors, Looking, Method, Solver, progressive};
 use illuminant_scene::{Mesh, Shape};
+use still_scenes::{cut, geometry, inside_of_box, problem};
 
 fn sphere(radius: f32) -> Shape {
     Shape::Sphere { center: vec3(1.0, -2.0, 0.5), radius, turn: Mat3::IDENTITY }
