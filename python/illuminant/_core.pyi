@@ -327,6 +327,34 @@ def encode_png(
 ) -> bytes:
     """A PNG with exactly the chunks asked for; `chromaticities` are x, y of white, red, green and blue."""
 
+def encode_icc(
+    description: str,
+    rights: str,
+    primaries: Sequence[Sequence[float]],
+    white: Sequence[float],
+    curves: Sequence[tuple[str, Sequence[float]]],
+    *,
+    peak: float | None = None,
+    cicp: Sequence[int] | None = None,
+    version: int = 4,
+) -> bytes:
+    """An ICC profile. A curve is 'gamma' with γ, 'parametric' with g a b c d e f, 'table' with 2 to 4096 values that
+    rise to 1, or 'sRGB' or 'Rec.709' with nothing; `peak` is in cd/m²."""
+
+class _Profile(TypedDict):
+    description: str
+    rights: str
+    version: int
+    primaries: list[list[float]]
+    white: list[float]
+    peak: float | None
+    cicp: tuple[int, int, int, int] | None
+    table: NDArray[np.float64]
+    curves: list[tuple[str, list[float]]]
+
+def decode_icc(content: bytes, samples: int) -> _Profile:
+    """The display that an ICC profile describes, with its own white and primaries; `table` is (3, samples)."""
+
 def audit_material(
     scene: Scene,
     material: int,
