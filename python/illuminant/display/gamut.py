@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 __all__ = ["DEFAULT", "bring_inside", "classify", "methods"]
 
-DEFAULT = "oklab-adaptive"
+DEFAULT = "cook"
 """The method that is used when none is named; docs/display.md has the figures that chose it."""
 
 
