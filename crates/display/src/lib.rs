@@ -4,7 +4,11 @@
 //! [`encode_png`] puts the code values into a file that says which system they belong to.
 
 mod develop;
+mod dither;
 mod png;
 
 pub use develop::{Developed, Pixels, develop};
+pub use dither::{
+    ClassMatrix, Code, Dither, DitherError, Patterning, Thresholds, Weights, quantise, quantise_into,
+};
 pub use png::{PngError, PngTags, encode_png};
