@@ -308,6 +308,20 @@ class Display:
     ) -> tuple[NDArray[np.float32], dict[str, int]]:
         """Code values 0 to 1 of an image (h, w, 3), and how many pixels lay outside, by kind."""
 
+    def show(
+        self,
+        xyz: NDArray[np.float64] | NDArray[np.float32],
+        *,
+        exposure: float,
+        reference: float,
+        tone: str,
+        gamut: str,
+        bits: int,
+        dither: str,
+        seed: int,
+    ) -> tuple[NDArray[np.uint8] | NDArray[np.uint16], dict[str, int]]:
+        """Codes of an image (h, w, 3), and how many pixels lay outside, by kind."""
+
 def gamut_methods() -> list[str]:
     """The names of the gamut methods."""
 
