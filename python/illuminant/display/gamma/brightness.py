@@ -11,7 +11,7 @@ are then nearly equal steps of brightness. L* of the CIE (1976), close to a cube
 
 Example:
     >>> brightness([0.0, 0.1, 1.0], black=0.01).round(3).tolist()
-    [0.0, 0.518, 1.0]
+    [0.0, 0.519, 1.0]
     >>> found = resemblance(2.2, black=0.01)
     >>> round(found.logarithmic, 3), round(found.lightness, 4)
     (0.977, 0.9993)
