@@ -99,6 +99,7 @@ def fitted(codes: ArrayLike, luminances: Mapping[str, ArrayLike], fits: Mapping[
         'reading against fit (%)'
     """
     import numpy as np
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
     code = np.asarray(codes, np.float64)
     with styled():
@@ -118,6 +119,9 @@ def fitted(codes: ArrayLike, luminances: Mapping[str, ArrayLike], fits: Mapping[
                 right.plot(code[used], 100.0 * fit.residuals[used], **marks)
         left.set_xscale("log")
         left.set_yscale("log")
+        left.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        left.xaxis.set_major_formatter(FormatStrFormatter("%g"))
+        left.xaxis.set_minor_formatter(NullFormatter())
         left.set_xlabel("code value")
         left.set_ylabel("luminance (cd/m²)")
         left.set_title("Readings and fit; open marks lie below the cutoff")
