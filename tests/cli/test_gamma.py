@@ -127,5 +127,62 @@ def test_mistakes_in_the_studies_are_sentences(inside: Command, tmp_path: Path) 
 def test_the_verb_alone_lists_its_verbs(inside: Command) -> None:
     done = inside("gamma")
     assert done.returncode == 0
-    for verb in ("table", "levels", "fit", "phosphors", "response", "drift", "brightness", "banding"):
+    for verb in (
+        "table",
+        "levels",
+        "fit",
+        "phosphors",
+        "response",
+        "drift",
+        "brightness",
+        "banding",
+        "remap",
+    ):
         assert f"  {verb} " in done.stdout
+
+
+def test_a_picture_is_mapped_to_another_display_and_told_what_it_lost(
+    inside: Command, tmp_path: Path
+) -> None:
+    from illuminant.display.picture import Picture
+
+    codes = np.random.default_rng(0).integers(0, 256, (40, 50, 3), dtype=np.uint8)
+    before, after, back = (tmp_path / f"{name}.png" for name in ("before", "after", "back"))
+    Picture(codes, "sRGB", 8, {"Note": "kept"}).save(before)
+    done = inside("gamma", "remap", before, after, "--to", "Display P3")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("ΔE00 ") and "clamped          0.00 %" in done.stdout
+    there = Picture.open(after)
+    assert there.display.name == "Display P3" and there.text["Note"] == "kept"
+    np.testing.assert_allclose(there.xyz(), Picture.open(before).xyz(), atol=1.0)
+    facts = json.loads(inside("gamma", "remap", after, back, "--to", "sRGB", "--json").stdout)
+    assert facts["from"] == "Display P3" and 0.0 < facts["mean"] < 0.5
+    away = np.abs(Picture.open(back).codes.astype(int) - codes)
+    # Mapped back, codes are off by what was rounded on the way: more than a half step.
+    assert away.max() >= 1 and away.mean() < 1.0
+    fine = json.loads(
+        inside("gamma", "remap", before, back, "--to", "Display P3", "--bits", "16", "--json").stdout
+    )
+    assert fine["mean"] < 0.01
+    wide = inside("gamma", "remap", before, back, "--from", "Rec.2020 PQ", "--to", "sRGB")
+    assert wide.returncode == 0 and "0.00 % of pixels" not in wide.stdout
+
+
+def test_mistakes_in_a_mapping_are_sentences(inside: Command, tmp_path: Path) -> None:
+    from illuminant.display.picture import Picture
+
+    path, out = tmp_path / "a.png", tmp_path / "b.png"
+    Picture(np.zeros((2, 2, 3), np.uint8), "sRGB").save(path)
+    for arguments, sentence in (
+        ((path, out, "--to", "mine"), "no display 'mine'"),
+        ((tmp_path / "none.png", out, "--to", "sRGB"), "cannot be read"),
+        ((path, tmp_path / "b.jpg", "--to", "sRGB"), "saved as .png"),
+        ((path, out, "--to", "sRGB", "--match", "near"), "relative or absolute"),
+        ((path, out, "--to", "sRGB", "--bits", "20"), "1 to 16 bits"),
+        ((path, out), "--to"),
+    ):
+        done = inside("gamma", "remap", *arguments)
+        assert done.returncode == 2 and sentence in done.stderr, (arguments, done.stderr)
+        assert not out.exists()
+    path.write_bytes(path.read_bytes()[:60])
+    assert inside("gamma", "remap", path, out, "--to", "sRGB").returncode == 2

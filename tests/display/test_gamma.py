@@ -505,7 +505,7 @@ class Plain:
 
     def __init__(self, name, peak=100.0):
         self.system = color.system(name)
-        self.name, self.peak, self.white = name, peak, self.system.white
+        self.name, self.shown_white, self.white = name, peak, self.system.white
 
     def encode(self, linear):
         """Code values."""
@@ -517,11 +517,11 @@ class Plain:
 
     def to_xyz(self, code):
         """XYZ, cd/m²."""
-        return self.peak * color.rgb_to_xyz(code, self.system, encoded=True)
+        return self.shown_white * color.rgb_to_xyz(code, self.system, encoded=True)
 
     def from_xyz(self, xyz):
         """Linear values of XYZ in cd/m²."""
-        return color.xyz_to_rgb(xyz / self.peak, self.system)
+        return color.xyz_to_rgb(xyz / self.shown_white, self.system)
 
 
 def test_a_display_to_itself_changes_no_code():

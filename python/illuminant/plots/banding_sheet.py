@@ -67,8 +67,8 @@ def sheet(
         UsageError: an argument is not possible.
 
     Example:
-        >>> sheet((8, 6), size=100).get_size_inches().tolist()
-        [1.13, 1.37]
+        >>> (sheet((8, 6), size=100).get_size_inches() * 200).round().tolist()
+        [224.0, 284.0]
     """
     import numpy as np
     from matplotlib.figure import Figure
@@ -109,7 +109,7 @@ def staircase(
         top: up to which share of the surface's colour.
 
     Example:
-        >>> [axes.get_title() for axes in staircase((8, 10)).axes]
+        >>> [axes.get_title(loc="left") for axes in staircase((8, 10)).axes]
         ['8 bits', '10 bits']
     """
     import numpy as np

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import typer
 
-from illuminant.cli.gamma import fit, study, table
+from illuminant.cli.gamma import fit, remap, study, table
 
 __all__ = ["app"]
 
@@ -20,6 +20,7 @@ app.command("response", short_help="Plot response and correction.")(study.respon
 app.command("drift", short_help="Plot what a wrong gamma does to colours.")(study.drift)
 app.command("brightness", short_help="Plot perceived brightness.")(study.brightness)
 app.command("banding", short_help="Compare two ways to store an image.")(study.banding)
+app.command("remap", short_help="Map a picture from one display to another.")(remap.remap)
 
 
 @app.callback(invoke_without_command=True)

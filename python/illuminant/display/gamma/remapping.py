@@ -10,10 +10,16 @@ made: levels fall together, others are skipped, and what lies outside the other'
 `degradation` says by how much: ΔE00 between what the other display shows of the mapped codes and of the mapped floats
 (which are rounded once, for it), and how many codes of red, green and blue each of the two uses.
 
-White goes to white: luminances are scaled by the ratio of the two peaks, and a colour keeps its chromaticity. With
+White goes to white: luminances are scaled by the ratio of the two whites, and a colour keeps its chromaticity. With
 `match="absolute"` a luminance stays what it is, in cd/m², and what the other display cannot reach is clamped.
 
 Shapes are (..., 3); bits are 1 to 16. A display is one of `illuminant.display.displays`, or anything with its methods.
+
+Example:
+    >>> from illuminant.display.displays import named
+    >>> codes, clamped = remap([[255, 0, 0], [0, 0, 128]], named("SMPTE-C"), named("Display P3"))
+    >>> codes.tolist(), clamped
+    ([[228, 62, 34], [8, 12, 124]], 0.0)
 """
 
 from __future__ import annotations
@@ -31,7 +37,7 @@ if TYPE_CHECKING:
     Codes = NDArray[np.unsignedinteger[Any]]
     Float64 = NDArray[np.float64]
 
-__all__ = ["Degradation", "Match", "Monitor", "degradation", "remap"]
+__all__ = ["Degradation", "Loss", "Match", "Monitor", "degradation", "loss", "remap"]
 
 Match = Literal["relative", "absolute"]
 
@@ -44,8 +50,8 @@ class Monitor(Protocol):
         """What messages call it."""
 
     @property
-    def peak(self) -> float:
-        """Luminance of its white, cd/m²."""
+    def shown_white(self) -> float:
+        """Luminance at which it shows diffuse white, cd/m²."""
 
     @property
     def white(self) -> tuple[float, float]:
@@ -87,6 +93,27 @@ class Degradation:
     clamped: float
 
 
+@dataclass(frozen=True)
+class Loss:
+    """What became of stored codes, of which no floats are there any more.
+
+    Attributes:
+        mean: mean ΔE00 between the codes on the first display and their mapping on the other.
+        largest: largest ΔE00.
+        levels_before: codes of red, green and blue that occurred.
+        levels: those that occur now.
+        colours_before: distinct colours before.
+        colours: distinct colours now.
+    """
+
+    mean: float
+    largest: float
+    levels_before: tuple[int, int, int]
+    levels: tuple[int, int, int]
+    colours_before: int
+    colours: int
+
+
 def _values(codes: ArrayLike, bits: int) -> Float64:
     """Code values 0 to 1 of whole codes."""
     import numpy as np
@@ -108,7 +135,7 @@ def _mapped(values: Float64, source: Monitor, target: Monitor, match: str) -> Fl
         raise UsageError(f'There is no match "{match}": expected relative or absolute.')
     xyz = np.asarray(source.to_xyz(values), np.float64)
     if match == "relative":
-        xyz = xyz * (target.peak / source.peak)
+        xyz = xyz * (target.shown_white / source.shown_white)
     return np.asarray(target.from_xyz(xyz), np.float64)
 
 
@@ -185,28 +212,87 @@ def degradation(
         quantised(values, bits), source, target, bits=bits, out_bits=shown_bits, match=match
     )
     wanted = quantised(target.encode(_mapped(values, source, target, match).clip(0.0, 1.0)), shown_bits)
-    white = color.white_xyz(target.white)
-
-    def lab(codes: Codes) -> Float64:
-        xyz = np.asarray(target.to_xyz(codes / top_code(shown_bits)), np.float64)
-        return np.asarray(color.xyz_to_lab(xyz / target.peak, white), np.float64)
-
-    difference = np.asarray(color.delta_e_2000(lab(wanted), lab(stored)))
-
-    def levels(codes: Codes) -> tuple[int, int, int]:
-        flat = codes.reshape(-1, 3)
-        return (len(np.unique(flat[:, 0])), len(np.unique(flat[:, 1])), len(np.unique(flat[:, 2])))
-
-    def colours(codes: Codes) -> int:
-        red, green, blue = codes.reshape(-1, 3).astype(np.int64).T
-        return len(np.unique((red << 32) + (green << 16) + blue))
-
+    difference = np.asarray(
+        color.delta_e_2000(_lab(wanted, shown_bits, target), _lab(stored, shown_bits, target))
+    )
     return Degradation(
         float(difference.mean()),
         float(difference.max()),
-        levels(stored),
-        levels(wanted),
-        colours(stored),
-        colours(wanted),
+        _levels(stored),
+        _levels(wanted),
+        _colours(stored),
+        _colours(wanted),
         clamped,
     )
+
+
+def loss(
+    before: ArrayLike,
+    after: ArrayLike,
+    source: Monitor,
+    target: Monitor,
+    *,
+    bits: int = 8,
+    out_bits: int | None = None,
+    match: Match = "relative",
+) -> Loss:
+    """What is lost by a mapping of codes, against the colours that the first display showed.
+
+    Args:
+        before: (..., 3) codes for `source`.
+        after: (..., 3) what `remap` made of them.
+        source: the display for which they were made.
+        target: the display for which they are now.
+        bits: of the codes before.
+        out_bits: of the codes after; None: as many.
+        match: as it was mapped.
+
+    Raises:
+        UsageError: the codes are not of these bits, or their shapes differ.
+    """
+    import numpy as np
+
+    from illuminant import color
+
+    old, new = np.asarray(before), np.asarray(after)
+    if old.shape != new.shape or not old.size:
+        raise UsageError(f"Codes before and after are of one shape, not {old.shape} and {new.shape}.")
+    new_bits = bits if out_bits is None else out_bits
+    white = source.shown_white if match == "relative" else target.shown_white
+    xyz = np.asarray(source.to_xyz(_values(old, bits)), np.float64) / white
+    wanted = color.xyz_to_lab(xyz, color.white_xyz(target.white))
+    difference = np.asarray(color.delta_e_2000(wanted, _lab(new, new_bits, target)))
+    return Loss(
+        float(difference.mean()),
+        float(difference.max()),
+        _levels(old),
+        _levels(new),
+        _colours(old),
+        _colours(new),
+    )
+
+
+def _lab(codes: Any, bits: int, display: Monitor) -> Float64:
+    """L*a*b* of what a display shows of codes, under its own white."""
+    import numpy as np
+
+    from illuminant import color
+
+    xyz = np.asarray(display.to_xyz(_values(codes, bits)), np.float64) / display.shown_white
+    return np.asarray(color.xyz_to_lab(xyz, color.white_xyz(display.white)), np.float64)
+
+
+def _levels(codes: Any) -> tuple[int, int, int]:
+    """How many codes of red, green and blue occur."""
+    import numpy as np
+
+    red, green, blue = codes.reshape(-1, 3).T
+    return (len(np.unique(red)), len(np.unique(green)), len(np.unique(blue)))
+
+
+def _colours(codes: Any) -> int:
+    """How many distinct colours there are."""
+    import numpy as np
+
+    red, green, blue = codes.reshape(-1, 3).astype(np.int64).T
+    return len(np.unique((red << 32) + (green << 16) + blue))
