@@ -17,7 +17,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from illuminant.cli import audit, check, compare, diff, display, info, new, radiosity, render, spectra
+from illuminant.cli import audit, check, compare, diff, display, gamma, info, new, radiosity, render, spectra
 from illuminant.cli.report import sentence
 
 __all__ = ["app", "main", "run"]
@@ -44,6 +44,7 @@ app.command("display", short_help="Show an image on a display.")(display.display
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("audit", short_help="Test the physics of a material.")(audit.audit)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
+app.add_typer(gamma.app, name="gamma", short_help="Tables, fits and studies of a monitor's gamma.")
 app.add_typer(radiosity.app, name="radiosity", short_help="Solve for light between surfaces, relight.")
 app.add_typer(spectra.app, name="spectra", short_help="List, show, plot, convert measured spectra.")
 
