@@ -9,7 +9,7 @@ Luminance and colour share one band, so they can be told apart only by guess:
 - "notch": colour is all that lies about the subcarrier (±1.3 MHz); luminance is what a notch of ±0.6 MHz leaves.
 - "low-pass": the same colour; luminance is what lies below 3 MHz, as in simple receivers.
 - "comb": the subcarrier turns over from line to line of a field, and a picture seldom does: colour is the difference of
-  a line from the mean of its neighbours, about the subcarrier (±1.4 MHz); luminance is the rest and keeps its 4.2 MHz.
+  a line from the mean of its neighbours, above 1.4 MHz; luminance is the rest and keeps its 4.2 MHz.
 
 What is taken for the wrong one is seen: fine luminance as false colour (cross-colour), and the edges of colour as dots
 (cross-luminance); with the comb, at edges between lines only.
@@ -49,7 +49,7 @@ PLAIN_MHZ = 3.0
 """Where luminance ends in the decoder "low-pass", −3 dB."""
 
 COMB_MHZ = 1.4
-"""To both sides of the subcarrier the comb works, −3 dB."""
+"""Below this (−3 dB) all is luminance, whatever the neighbours of a line hold."""
 
 
 def burst_phase_deg(signal: Signal) -> Float64:
@@ -92,7 +92,8 @@ def separate(signal: Signal, decoder: str = "comb") -> tuple[Float64, Float64]:
     seen = slice(FIRST_ACTIVE, FIRST_ACTIVE + ACTIVE)
     picture[:, seen] = (signal.active - signal.levels.setup) / signal.levels.range
     if decoder == "comb" and len(picture) > 2:
-        colour = filters.filtered(_comb(picture), filters.chroma_band(COMB_MHZ))
+        differs = _comb(picture)
+        colour = differs - filters.filtered(differs, filters.chroma_pass(COMB_MHZ))
         return picture - colour, colour
     if decoder == "low-pass":
         return filters.filtered(picture, _plain()), picture

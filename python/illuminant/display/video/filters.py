@@ -11,7 +11,7 @@
 
     of the standard     taps   −3 dB    −6 dB    −20 dB   below −40 dB from
     Y  low_pass(4.2)      33   4.20     4.35     4.68     4.85 MHz
-    I  chroma_pass(1.3)   39   1.30     1.49     1.86     2.07 MHz
+    I  chroma_pass(1.3)   37   1.30     1.50     1.89     2.11 MHz
     Q  chroma_pass(0.5)   59   0.50     0.59     0.79     0.89 MHz
 
 Q keeps within the limits of the FCC (less than 6 dB down at 0.5 MHz, more at 0.6); I is 3 dB down at 1.3 MHz, where
