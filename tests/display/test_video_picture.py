@@ -1,4 +1,4 @@
-"""Pictures on their way through NTSC: what is lost, what is illegal, where it may stand, what instruments show of it."""
+"""Pictures on their way through NTSC: what is lost, what is illegal, where it may stand, what instruments show."""
 
 import numpy as np
 import pytest
@@ -372,7 +372,7 @@ def test_colours_that_black_and_white_makes_one_are_marked_and_others_not() -> N
     assert mask[10, 27:33].all() and mask.mean() == pytest.approx(0.1)
     image[:, 30:] = green * 0.5
     assert not black_and_white.isoluminant(image).any()
-    image[:, 30:] = red + [0.0, 0.0, 0.1]
+    image[:, 30:] = red + np.array([0.0, 0.0, 0.1])
     assert not black_and_white.isoluminant(image).any()
 
 

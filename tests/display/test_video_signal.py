@@ -1,4 +1,4 @@
-"""The composite signal against the standard: times, filters, levels of the colour bars, and what decoders make of it."""
+"""The composite signal against the standard: times, filters, levels of the bars, and what decoders make of it."""
 
 import numpy as np
 import pytest
@@ -93,9 +93,9 @@ def test_the_times_of_the_book() -> None:
     assert [cycles(mhz) for mhz in (4.2, 1.3, 0.5)] == pytest.approx([220.92, 68.38, 26.3])
     assert pixel_limit() == pytest.approx(441.84)
     # The sampled line is the seen part of a line to a sample.
-    assert ACTIVE / SAMPLE_MHZ == pytest.approx(52.6, abs=1.0 / SAMPLE_MHZ)
-    assert 910 / SAMPLE_MHZ == pytest.approx(line_time_us(frames_per_second=30.0 / 1.001), rel=1e-12)
-    assert SUBCARRIER_MHZ == pytest.approx(3.579545, abs=5e-7)
+    assert pytest.approx(52.6, abs=1.0 / SAMPLE_MHZ) == ACTIVE / SAMPLE_MHZ
+    assert pytest.approx(line_time_us(frames_per_second=30.0 / 1.001), rel=1e-12) == 910 / SAMPLE_MHZ
+    assert pytest.approx(3.579545, abs=5e-7) == SUBCARRIER_MHZ
 
 
 def test_the_raster_has_half_lines() -> None:

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     Float64 = NDArray[np.float64]
 
-__all__ = ["BARS", "burst_vector", "density", "hue_and_amplitude", "targets", "vectors", "waveform"]
+__all__ = ["BARS", "beam", "burst_vector", "density", "hue_and_amplitude", "targets", "vectors", "waveform"]
 
 BARS = {
     "grey": (0.75, 0.75, 0.75),
@@ -95,6 +95,28 @@ def waveform(
         ire = np.fft.irfft(spectrum, SAMPLES * finer, axis=-1) * finer
         time = np.arange(SAMPLES * finer) * (time[1] / finer)
     return time, ire
+
+
+def beam(signal: Signal, *, show: str = "flat", finer: int = 4) -> tuple[Float64, Float64]:
+    """Points of all lines over each other as a beam draws them, each line looked at a little later than the one before.
+
+    Samples stand at the same four phases of the subcarrier on all lines; moved by parts of a sample they fill the
+    trace.
+
+    Returns:
+        Time and level (lines, n) of each point, µs and IRE.
+
+    Raises:
+        UsageError: as `waveform`.
+    """
+    import numpy as np
+
+    time, ire = waveform(signal, show=show, finer=finer)
+    # Steps of the golden ratio leave no gaps.
+    late = (np.arange(len(ire)) * 0.6180339887) % 1.0
+    wave = np.fft.rfftfreq(ire.shape[-1])
+    spectrum = np.fft.rfft(ire, axis=-1) * np.exp(2j * np.pi * wave * late[:, None])
+    return time + late[:, None] * time[1], np.fft.irfft(spectrum, ire.shape[-1], axis=-1)
 
 
 def vectors(

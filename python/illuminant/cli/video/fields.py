@@ -1,0 +1,72 @@
+"""`illuminant video fields`: two pictures as the fields of a frame, and back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+__all__ = ["fields"]
+
+
+def fields(
+    first: Annotated[
+        Path,
+        typer.Argument(
+            metavar="ODD", help="Picture of the first field; with --split: FRAME.", show_default=False
+        ),
+    ],
+    second: Annotated[
+        Path,
+        typer.Argument(metavar="EVEN", help="Picture 1/60 s later; with --split: ODD.", show_default=False),
+    ],
+    third: Annotated[
+        Path,
+        typer.Argument(metavar="OUT", help="Frame to be written; with --split: EVEN.", show_default=False),
+    ],
+    split: Annotated[
+        bool, typer.Option("--split", help="Write the two fields of a frame: FRAME ODD EVEN.")
+    ] = False,
+    full: Annotated[
+        bool, typer.Option("--full", help="With --split: fields of full height, lines between filled in.")
+    ] = False,
+) -> None:
+    """Weave the odd lines of one picture and the even lines of the next into a frame.
+
+    Lines count from 1 at the top. Code values come back bit for bit with --split.
+
+    \b
+    Example:
+      illuminant video fields frame-000.png frame-001.png tape-000.png
+      illuminant video fields --split tape-000.png odd.png even.png
+    """
+    from illuminant.cli.report import note
+    from illuminant.display.video import frame_buffer, interlace
+    from illuminant.display.video.frame_buffer import FrameBuffer
+    from illuminant.errors import UsageError
+
+    if full and not split:
+        raise UsageError("--full goes with --split.")
+    if split:
+        for path in (second, third):
+            frame_buffer.check_png(path)
+        frame = frame_buffer.opened(first)
+        parts = interlace.split(frame.codes)
+        for parity, (path, part) in enumerate(zip((second, third), parts, strict=True)):
+            buffer = FrameBuffer(part, frame.system)
+            if full:
+                top = 2**frame.bits - 1
+                buffer = frame.with_values(interlace.full_height(part, parity, len(frame.codes)) / top)
+            buffer.save(path, what=f"{('odd', 'even')[parity]} lines of a frame")
+            note(f"{path}: {len(buffer.codes)} lines")
+        return
+    frame_buffer.check_png(third)
+    odd, even = frame_buffer.opened(first), frame_buffer.opened(second)
+    if odd.system != even.system:
+        raise UsageError(
+            f"{first} is {odd.system} and {second} is {even.system}: the fields of a frame are of one."
+        )
+    woven = FrameBuffer(interlace.weave(odd.codes, even.codes), odd.system)
+    woven.save(third, what="two fields")
+    note(f"{third}: odd lines of {first}, even lines of {second}")
