@@ -1,6 +1,7 @@
 """Pictures on their way through NTSC: what is lost, what is illegal, where it may stand, what instruments show."""
 
 import numpy as np
+import PIL.Image
 import pytest
 
 from illuminant import color
@@ -51,15 +52,13 @@ def test_a_flat_picture_of_any_width_comes_back(width: int, decoder: str) -> Non
 
 
 def test_lines_can_be_other_than_rows() -> None:
-    image = np.full((540, 90, 3), (0.6, 0.3, 0.1))
-    found = transmission.transmit(image, lines=485)
+    image = np.full((108, 90, 3), (0.6, 0.3, 0.1))
+    found = transmission.transmit(image, lines=97)
     np.testing.assert_allclose(found[:, 10:-10], image[:, 10:-10], atol=1e-3)
-    fine = np.tile(np.array([0.2, 0.8])[:, None, None], (270, 90, 3))
-    # 540 lines of black and white do not fit into 485.
-    assert np.ptp(transmission.transmit(fine, lines=485)[100:200, 45, 1]) < 0.45
-    assert np.ptp(transmission.transmit(fine, decoder="notch")[100:200, 45, 1]) == pytest.approx(
-        0.6, abs=1e-3
-    )
+    fine = np.tile(np.array([0.2, 0.8])[:, None, None], (54, 90, 3))
+    # 108 lines of black and white do not fit into 97.
+    assert np.ptp(transmission.transmit(fine, lines=97)[20:90, 45, 1]) < 0.45
+    assert np.ptp(transmission.transmit(fine, decoder="notch")[20:90, 45, 1]) == pytest.approx(0.6, abs=1e-3)
 
 
 def test_resampling_keeps_flat_and_smooth_rows_and_changes_nothing_without_need() -> None:
@@ -415,6 +414,13 @@ def test_code_values_of_a_png_come_back_bit_for_bit(dtype: type, tmp_path) -> No
     np.testing.assert_array_equal(found.codes, codes)
     assert (found.system, found.bits) == ("SMPTE-C", np.dtype(dtype).itemsize * 8)
     np.testing.assert_array_equal(found.with_values(found.values).codes, codes)
+
+
+def test_transparency_is_left_out_and_grey_fills_three_channels(tmp_path) -> None:
+    PIL.Image.new("RGBA", (4, 3), (9, 200, 3, 99)).save(tmp_path / "clear.png")
+    PIL.Image.new("L", (4, 3), 77).save(tmp_path / "grey.png")
+    assert opened(tmp_path / "clear.png").codes[1, 1].tolist() == [9, 200, 3]
+    assert opened(tmp_path / "grey.png").codes[1, 1].tolist() == [77, 77, 77]
 
 
 def test_files_that_are_no_frame_buffer_are_refused(tmp_path) -> None:

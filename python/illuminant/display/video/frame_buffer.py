@@ -137,7 +137,10 @@ def opened(path: str | os.PathLike[str]) -> FrameBuffer:
             f"{path} holds light, not code values: make a PNG of it first, for the display it is meant for."
         )
     header = png.read_header(path)
-    file = oiio.ImageInput.open(str(path))
+    # As stored: else what is transparent would be darkened.
+    config = oiio.ImageSpec()
+    config.attribute("oiio:UnassociatedAlpha", 1)
+    file = oiio.ImageInput.open(str(path), config)
     if file is None:
         raise ImageError(f"{path} cannot be read: {oiio.geterror() or 'it is damaged'}.")
     try:

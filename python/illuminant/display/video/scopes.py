@@ -5,8 +5,8 @@
 - The vectorscope shows the colour as a point: U to the right, V upwards; its angle is the hue, its distance the
   saturation. The burst points to 180°. Targets are the six colours of the 75 % bars (EIA RS-189-A), and I and Q:
 
-      yellow 167.1°  62.1     cyan 283.4°  87.7     green 240.8°  81.9      (phase; IRE peak to peak)
-      magenta 60.8°  81.9     red 103.4°  87.7      blue 347.1°  62.1
+      yellow 167.1°  62.2     cyan 283.5°  87.7     green 240.7°  81.9      (phase; IRE peak to peak)
+      magenta 60.7°  81.9     red 103.5°  87.7      blue 347.1°  62.2
 
 Distances on the vectorscope are amplitudes in IRE, half of peak to peak.
 
