@@ -17,7 +17,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from illuminant.cli import audit, check, compare, diff, info, new, radiosity, render, spectra, video
+from illuminant.cli import audit, check, compare, diff, display, info, new, radiosity, render, spectra, video
 from illuminant.cli.report import sentence
 
 __all__ = ["app", "main", "run"]
@@ -40,6 +40,7 @@ app.command("new", short_help="Write a commented starter scene.")(new.new)
 app.command("check", short_help="Report every mistake of a scene.")(check.check)
 app.command("render", short_help="Render a scene to an image.")(render.render)
 app.command("compare", short_help="Render by every technique and model.")(compare.compare)
+app.command("display", short_help="Show an image on a display.")(display.display)
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("audit", short_help="Test the physics of a material.")(audit.audit)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
