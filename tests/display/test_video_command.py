@@ -10,9 +10,10 @@ import pytest
 
 from illuminant import plots
 from illuminant.cli import run
+from illuminant.display.picture import Picture
 from illuminant.display.video import scopes, transmission
 from illuminant.display.video.composite import encode
-from illuminant.display.video.frame_buffer import FrameBuffer, opened
+from illuminant.display.video.frame_buffer import opened, with_values
 
 Inside = Callable[..., "subprocess.CompletedProcess[str]"]
 
@@ -22,7 +23,7 @@ def video(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, t
     """Runs `illuminant video` with the given arguments in the folder of the test."""
     monkeypatch.chdir(tmp_path)
     bars = np.repeat(np.array([*scopes.BARS.values(), (1.0, 1.0, 0.0)]), 16, axis=0)
-    FrameBuffer(np.rint(np.tile(bars, (12, 1, 1)) * 255).astype(np.uint8)).save("bars.png")
+    Picture.of_values(np.tile(bars, (12, 1, 1)), "sRGB").save("bars.png")
 
     def call(*arguments: object) -> "subprocess.CompletedProcess[str]":
         words = ["video", *map(str, arguments)]
@@ -38,7 +39,7 @@ def test_transmit_writes_what_the_function_computes(video: Inside) -> None:
     assert done.returncode == 0 and done.stderr.startswith("sent.png: decoder notch")
     before, after = opened("bars.png"), opened("sent.png")
     wanted = transmission.transmit(before.values, decoder="notch", hue_deg=20, chroma=0.5)
-    np.testing.assert_array_equal(after.codes, before.with_values(wanted).codes)
+    np.testing.assert_array_equal(after.codes, with_values(before, wanted, "").codes)
     assert video("transmit", "bars.png", "pair.png", "--beside").returncode == 0
     np.testing.assert_array_equal(opened("pair.png").codes[:, :128], before.codes)
     assert video("transmit", "bars.png", "c.png", "--correct", "--bandwidth", "4.2,1.3,1.3").returncode == 0
@@ -61,15 +62,17 @@ def test_check_ends_with_one_above_the_limit_and_repairs(video: Inside) -> None:
 def test_fields_are_woven_and_split_bit_for_bit(video: Inside) -> None:
     rng = np.random.default_rng(3)
     odd, even = (rng.integers(0, 65536, (8, 10, 3)).astype(np.uint16) for _ in range(2))
-    FrameBuffer(odd).save("a.png")
-    FrameBuffer(even).save("b.png")
+    Picture(odd, "sRGB", 16).save("a.png")
+    Picture(even, "sRGB", 16).save("b.png")
     assert video("fields", "a.png", "b.png", "frame.png").returncode == 0
     assert video("fields", "--split", "frame.png", "odd.png", "even.png").returncode == 0
     np.testing.assert_array_equal(opened("odd.png").codes, odd[::2])
     np.testing.assert_array_equal(opened("even.png").codes, even[1::2])
     assert video("fields", "--split", "--full", "frame.png", "odd.png", "even.png").returncode == 0
     np.testing.assert_array_equal(opened("even.png").codes[1::2], even[1::2])
-    assert "one shape" in video("fields", "a.png", "bars.png", "no.png").stderr
+    assert "bars.png is sRGB of 8 bits" in video("fields", "a.png", "bars.png", "no.png").stderr
+    assert video("fields", "--split", "frame.png", "half.png", "rest.png").returncode == 0
+    assert "one shape" in video("fields", "a.png", "half.png", "no.png").stderr
 
 
 def test_monochrome_safe_components_and_wedges_write_pictures(video: Inside) -> None:
@@ -86,7 +89,7 @@ def test_monochrome_safe_components_and_wedges_write_pictures(video: Inside) -> 
     assert video("components", "bars.png", "bands.png", "--bands").returncode == 0
     assert video("wedges", "-o", "wedges.png", "--size", "160x90").returncode == 0
     assert opened("wedges.png").codes.shape == (90, 160, 3)
-    assert opened("wedges.png").system == "NTSC 1953 D65"
+    assert opened("wedges.png").display.name == "NTSC 1953 D65"
 
 
 def test_instruments_and_gamut_are_plotted(video: Inside, tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ import PIL.Image
 import pytest
 
 from illuminant import color
+from illuminant.display.picture import Picture
 from illuminant.display.video import (
     black_and_white,
     cube,
@@ -19,7 +20,7 @@ from illuminant.display.video import (
 )
 from illuminant.display.video.composite import encode
 from illuminant.display.video.decoders import DECODERS
-from illuminant.display.video.frame_buffer import FrameBuffer, opened
+from illuminant.display.video.frame_buffer import check_png, opened, with_values
 from illuminant.display.video.standard import ACTIVE, ACTIVE_US, Bandwidth
 from illuminant.errors import ImageError, UsageError
 
@@ -406,14 +407,18 @@ def test_a_delay_moves_the_picture_to_the_right_by_its_part_of_the_line() -> Non
 # --- frame buffer --------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("dtype", [np.uint8, np.uint16])
-def test_code_values_of_a_png_come_back_bit_for_bit(dtype: type, tmp_path) -> None:
-    codes = RNG.integers(0, np.iinfo(dtype).max, (9, 7, 3), endpoint=True).astype(dtype)
-    FrameBuffer(codes, "SMPTE-C").save(tmp_path / "a.png", what="a test")
-    found = opened(tmp_path / "a.png")
+@pytest.mark.parametrize("bits", [8, 10, 16])
+def test_code_values_of_a_png_come_back_bit_for_bit(bits: int, tmp_path) -> None:
+    codes = RNG.integers(0, 2**bits - 1, (9, 7, 3), endpoint=True).astype(
+        np.uint8 if bits == 8 else np.uint16
+    )
+    Picture(codes, "SMPTE-C", bits).save(tmp_path / "a.png")
+    found = opened(tmp_path / "a.png", colours=True)
     np.testing.assert_array_equal(found.codes, codes)
-    assert (found.system, found.bits) == ("SMPTE-C", np.dtype(dtype).itemsize * 8)
-    np.testing.assert_array_equal(found.with_values(found.values).codes, codes)
+    assert (found.display.name, found.bits) == ("SMPTE-C", bits)
+    again = with_values(found, found.values, "the same")
+    np.testing.assert_array_equal(again.codes, codes)
+    assert again.text["Description"] == "the same"
 
 
 def test_transparency_is_left_out_and_grey_fills_three_channels(tmp_path) -> None:
@@ -434,6 +439,10 @@ def test_files_that_are_no_frame_buffer_are_refused(tmp_path) -> None:
         with pytest.raises(ImageError, match=sentence):
             opened(tmp_path / name)
     with pytest.raises(UsageError, match=r"ends in \.png"):
-        FrameBuffer(np.zeros((1, 1, 3), np.uint8)).save(tmp_path / "a.jpg")
+        check_png(tmp_path / "a.jpg")
     with pytest.raises(UsageError, match="not a number"):
-        FrameBuffer(np.zeros((1, 1, 3), np.uint8)).with_values(np.full((1, 1, 3), np.nan))
+        with_values(Picture.of_values(np.zeros((1, 1, 3)), "sRGB"), np.full((1, 1, 3), np.nan), "")
+    PIL.Image.new("RGB", (4, 3)).save(tmp_path / "mute.png")
+    assert opened(tmp_path / "mute.png").display.name == "sRGB"
+    with pytest.raises(ImageError, match="does not say which display"):
+        opened(tmp_path / "mute.png", colours=True)

@@ -125,12 +125,13 @@ def check(
         for name, text in words.items():
             typer.echo(f"{percent[name]:6.2f} %  {name:<13}{text}")
     if marked is not None:
-        buffer.with_values(_marked(values, measure, masks, edges)).save(marked, what=f"in red: {measure}")
+        shown = _marked(values, measure, masks, edges)
+        frame_buffer.with_values(buffer, shown, f"in red: {measure}").save(marked)
         note(f"{marked}: in red what fails as {measure}")
     if repair is not None:
         # Half a step of 8 bits moves the signal by up to 0.4 IRE.
-        legal = buffer.with_values(legality.repaired(values, bounds, margin_ire=0.5))
-        legal.save(repair, what="hot colours desaturated")
+        legal = legality.repaired(values, bounds, margin_ire=0.5)
+        frame_buffer.with_values(buffer, legal, "hot colours desaturated").save(repair)
         note(f"{repair}: {percent['hot']:.2f} % of the pixels desaturated")
     if limit is not None and percent[measure] > limit:
         sentence("Unfit", f"{measure} {percent[measure]:.3g} % is above {limit:g} %.")

@@ -34,10 +34,9 @@ def wedges(
       illuminant video wedges -o wedges.png
       illuminant video transmit wedges.png sent.png
     """
-    import numpy as np
-
     from illuminant.cli.report import note
     from illuminant.cli.video.argument import size_of
+    from illuminant.display.picture import Picture
     from illuminant.display.video import frame_buffer
     from illuminant.display.video import wedges as drawn
     from illuminant.errors import UsageError
@@ -52,8 +51,8 @@ def wedges(
         ends = (first, last)
     frame_buffer.check_png(output)
     image = drawn.wedges(width, height, coarsest=ends[0], finest=ends[1])
-    blank = frame_buffer.FrameBuffer(np.zeros((1, 1, 3), np.uint8), "NTSC 1953 D65")
-    blank.with_values(image).save(output, what="resolving wedges in Y, I and Q")
+    text = {"Description": "resolving wedges in Y, I and Q"}
+    Picture.of_values(image, "NTSC 1953 D65", text=text).save(output)
     note(f"{output}: wedges in Y, I and Q, {ends[0]:g} to {ends[1]:g} cycles in the width")
 
 

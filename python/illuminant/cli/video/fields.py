@@ -42,8 +42,8 @@ def fields(
       illuminant video fields --split tape-000.png odd.png even.png
     """
     from illuminant.cli.report import note
+    from illuminant.display.picture import Picture
     from illuminant.display.video import frame_buffer, interlace
-    from illuminant.display.video.frame_buffer import FrameBuffer
     from illuminant.errors import UsageError
 
     if full and not split:
@@ -54,19 +54,21 @@ def fields(
         frame = frame_buffer.opened(first)
         parts = interlace.split(frame.codes)
         for parity, (path, part) in enumerate(zip((second, third), parts, strict=True)):
-            buffer = FrameBuffer(part, frame.system)
+            text = {"Description": f"{('odd', 'even')[parity]} lines of a frame"}
+            field = Picture(part, frame.display, frame.bits, text)
             if full:
-                top = 2**frame.bits - 1
-                buffer = frame.with_values(interlace.full_height(part, parity, len(frame.codes)) / top)
-            buffer.save(path, what=f"{('odd', 'even')[parity]} lines of a frame")
-            note(f"{path}: {len(buffer.codes)} lines")
+                filled = interlace.full_height(part, parity, frame.height) / frame.top
+                field = Picture.of_values(filled, frame.display, frame.bits, text)
+            field.save(path)
+            note(f"{path}: {field.height} lines")
         return
     frame_buffer.check_png(third)
     odd, even = frame_buffer.opened(first), frame_buffer.opened(second)
-    if odd.system != even.system:
-        raise UsageError(
-            f"{first} is {odd.system} and {second} is {even.system}: the fields of a frame are of one."
-        )
-    woven = FrameBuffer(interlace.weave(odd.codes, even.codes), odd.system)
-    woven.save(third, what="two fields")
+    if (odd.display, odd.bits) != (even.display, even.bits):
+        one, other = (f"{p.display.name} of {p.bits} bits" for p in (odd, even))
+        raise UsageError(f"The fields of a frame are alike: {first} is {one}, and {second} is {other}.")
+    woven = Picture(
+        interlace.weave(odd.codes, even.codes), odd.display, odd.bits, {"Description": "two fields"}
+    )
+    woven.save(third)
     note(f"{third}: odd lines of {first}, even lines of {second}")

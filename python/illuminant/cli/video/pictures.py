@@ -23,7 +23,8 @@ def monochrome(picture: Picture, out: Out) -> None:
 
     frame_buffer.check_png(out)
     buffer = frame_buffer.opened(picture)
-    buffer.with_values(black_and_white.preview(buffer.values)).save(out, what="luminance Y of NTSC")
+    grey = black_and_white.preview(buffer.values)
+    frame_buffer.with_values(buffer, grey, "luminance Y of NTSC").save(out)
     note(f"{out}: 0.299 R + 0.587 G + 0.114 B")
     lost = black_and_white.isoluminant(buffer.values)
     if lost.any():
@@ -46,7 +47,8 @@ def safe(picture: Picture, out: Out) -> None:
     frame_buffer.check_png(out)
     buffer = frame_buffer.opened(picture)
     values = buffer.values
-    buffer.with_values(safe_areas.overlay(values)).save(out, what="safe action and safe title, RP 27.3")
+    drawn = safe_areas.overlay(values)
+    frame_buffer.with_values(buffer, drawn, "safe action and safe title, RP 27.3").save(out)
     height, width = values.shape[:2]
     action, title = (
         safe_areas.rectangle(width, height, part) for part in (safe_areas.ACTION, safe_areas.TITLE)
@@ -93,5 +95,5 @@ def components(
         y, i, q = transmission.components(values)
         parts, what = [values, y, 0.5 + i, 0.5 + q], "original, Y, I and Q"
     sheet = np.concatenate([np.concatenate(parts[:2], axis=1), np.concatenate(parts[2:], axis=1)])
-    buffer.with_values(sheet).save(out, what=what)
+    frame_buffer.with_values(buffer, sheet, what).save(out)
     note(f"{out}: {what}, from the upper left")

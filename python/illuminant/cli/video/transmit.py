@@ -60,10 +60,10 @@ def transmit(
     if lines is not None and not 2 <= lines <= 10_000:
         raise UsageError(f"--lines {lines}: expected 2 to 10000.")
     frame_buffer.check_png(out)
-    buffer = frame_buffer.opened(picture)
+    buffer = frame_buffer.opened(picture, colours=correct)
     original = buffer.values
     ntsc = "NTSC 1953 D65"
-    sent = transmission.corrected(original, buffer.system, ntsc) if correct else original
+    sent = transmission.corrected(original, buffer.display, ntsc) if correct else original
     received = transmission.transmit(
         sent,
         decoder=decoder,
@@ -75,11 +75,11 @@ def transmit(
         frame=frame,
     )
     if correct:
-        received = transmission.corrected(received.clip(0.0, 1.0), ntsc, buffer.system)
+        received = transmission.corrected(received.clip(0.0, 1.0), ntsc, buffer.display)
     lost = abs(received - original).mean()
     if beside:
         import numpy as np
 
         received = np.concatenate([original, received], axis=1)
-    buffer.with_values(received).save(out, what=f"sent through NTSC, decoder {decoder}")
+    frame_buffer.with_values(buffer, received, f"sent through NTSC, decoder {decoder}").save(out)
     note(f"{out}: decoder {decoder}; code values differ by {100 * lost:.2g} % of white on average")

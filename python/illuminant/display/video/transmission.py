@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
+    from illuminant.display.displays import Display
+
     Float64 = NDArray[np.float64]
 
 __all__ = ["band_limited", "components", "corrected", "on_lines", "picture", "resampled", "transmit"]
@@ -209,12 +211,14 @@ def band_limited(values: ArrayLike, mhz: float, *, axis: int = 1) -> Float64:
     return resampled(np.moveaxis(passed, -1, axis), array.shape[axis], axis)
 
 
-def corrected(rgb: ArrayLike, source: str, target: str) -> Float64:
-    """Code values of one RGB system as those of another, clamped to what it can show (book eq 3.3).
+def corrected(rgb: ArrayLike, source: str | Display, target: str | Display) -> Float64:
+    """Code values for one display as those for another, clamped to what it can show (book eq 3.3).
+
+    Both show their white as 1: luminances are not compared.
 
     Args:
         rgb: (..., 3).
-        source, target: names of `illuminant.color.systems`; "NTSC 1953 D65" is what the signal is meant for.
+        source, target: displays or their names; "NTSC 1953 D65" is what the signal is meant for.
 
     Example:
         >>> corrected([1.0, 1.0, 1.0], "sRGB", "NTSC 1953 D65").round(6).tolist()
@@ -222,6 +226,9 @@ def corrected(rgb: ArrayLike, source: str, target: str) -> Float64:
     """
     import numpy as np
 
-    from illuminant.color.rgb import rgb_to_rgb
+    from illuminant.display.displays import named
 
-    return np.clip(rgb_to_rgb(rgb, source, target, encoded=True), 0.0, 1.0)
+    one, other = named(source), named(target)
+    xyz = one.decode(rgb) @ np.asarray(one.to_xyz_matrix).T
+    linear = np.clip(xyz @ np.asarray(other.from_xyz_matrix).T, 0.0, 1.0)
+    return np.asarray(np.clip(other.encode(linear), 0.0, 1.0))
