@@ -412,10 +412,10 @@ def test_code_values_of_a_png_come_back_bit_for_bit(bits: int, tmp_path) -> None
     codes = RNG.integers(0, 2**bits - 1, (9, 7, 3), endpoint=True).astype(
         np.uint8 if bits == 8 else np.uint16
     )
-    Picture(codes, "SMPTE-C", bits).save(tmp_path / "a.png")
+    Picture(codes, "Display P3", bits).save(tmp_path / "a.png")
     found = opened(tmp_path / "a.png", colours=True)
     np.testing.assert_array_equal(found.codes, codes)
-    assert (found.display.name, found.bits) == ("SMPTE-C", bits)
+    assert (found.display.name, found.bits) == ("Display P3", bits)
     again = with_values(found, found.values, "the same")
     np.testing.assert_array_equal(again.codes, codes)
     assert again.text["Description"] == "the same"
