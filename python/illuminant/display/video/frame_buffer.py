@@ -84,4 +84,11 @@ def opened(path: str | os.PathLike[str], *, colours: bool = False) -> Picture:
         raise ImageError(
             f"{path} holds light, not code values: make a PNG of it first, for the display it is meant for."
         )
-    return Picture.open(path, assume=None if colours else "sRGB")
+    if colours:
+        from illuminant import png
+
+        if png.read_header(path).display is None:
+            raise ImageError(
+                f"{path} does not say which display its numbers are for, so they cannot be corrected."
+            )
+    return Picture.open(path, assume="sRGB")
