@@ -17,7 +17,20 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from illuminant.cli import audit, check, compare, diff, display, gamma, info, new, radiosity, render, spectra
+from illuminant.cli import (
+    audit,
+    check,
+    compare,
+    diff,
+    display,
+    gamma,
+    info,
+    new,
+    radiosity,
+    render,
+    spectra,
+    video,
+)
 from illuminant.cli.report import sentence
 
 __all__ = ["app", "main", "run"]
@@ -47,6 +60,7 @@ app.command("info", short_help="Say what was found here, or in an image.")(info.
 app.add_typer(gamma.app, name="gamma", short_help="Tables, fits and studies of a monitor's gamma.")
 app.add_typer(radiosity.app, name="radiosity", short_help="Solve for light between surfaces, relight.")
 app.add_typer(spectra.app, name="spectra", short_help="List, show, plot, convert measured spectra.")
+app.add_typer(video.app, name="video", short_help="Send pictures through NTSC, and check them.")
 
 
 def _version(wanted: bool) -> None:
