@@ -17,7 +17,19 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from illuminant.cli import audit, check, compare, diff, info, new, radiosity, render, spectra
+from illuminant.cli import (
+    audit,
+    calibrate,
+    check,
+    compare,
+    diff,
+    info,
+    new,
+    pattern,
+    radiosity,
+    render,
+    spectra,
+)
 from illuminant.cli.report import sentence
 
 __all__ = ["app", "main", "run"]
@@ -43,6 +55,8 @@ app.command("compare", short_help="Render by every technique and model.")(compar
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("audit", short_help="Test the physics of a material.")(audit.audit)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
+app.command("pattern", short_help="Draw a test pattern for a display.")(pattern.pattern)
+app.add_typer(calibrate.app, name="calibrate", short_help="Adjust, measure and describe a display.")
 app.add_typer(radiosity.app, name="radiosity", short_help="Solve for light between surfaces, relight.")
 app.add_typer(spectra.app, name="spectra", short_help="List, show, plot, convert measured spectra.")
 

@@ -159,16 +159,32 @@ def notes(name: str, screen: Screen | None = None, **given: Any) -> list[str]:
     return found
 
 
-def picture(name: str, screen: Screen | None = None, **given: Any) -> Picture:
-    """A pattern as the codes of its display; arguments as for `draw`."""
+def picture(name: str, screen: Screen | None = None, *, blue_only: bool = False, **given: Any) -> Picture:
+    """A pattern as the codes of its display.
+
+    Args:
+        name, screen, given: as for `draw`.
+        blue_only: with red and green at 0, as a monitor shows it whose other guns are off.
+    """
+    from illuminant.display.patterns import color_bars
     from illuminant.display.picture import Picture
 
     screen = screen or Screen(bits=_pattern(name).bits)
-    return Picture.of_values(draw(name, screen, **given), screen.display, screen.bits)
+    values = draw(name, screen, **given)
+    return Picture.of_values(
+        color_bars.blue_only(values) if blue_only else values, screen.display, screen.bits
+    )
 
 
-def save(path: str | os.PathLike[str], name: str, screen: Screen | None = None, **given: Any) -> None:
-    """Save a pattern as a PNG that states its display, atomically; arguments as for `draw`.
+def save(
+    path: str | os.PathLike[str],
+    name: str,
+    screen: Screen | None = None,
+    *,
+    blue_only: bool = False,
+    **given: Any,
+) -> None:
+    """Save a pattern as a PNG that states its display, atomically; arguments as for `picture`.
 
     Raises:
         UsageError: name, options or values are not possible.
@@ -182,7 +198,8 @@ def save(path: str | os.PathLike[str], name: str, screen: Screen | None = None, 
         "size": [screen.width, screen.height],
         "bits": screen.bits,
         "display": screen.display.name,
+        **({"blue_only": True} if blue_only else {}),
         **{word: list(value) if isinstance(value, tuple) else value for word, value in given.items()},
     }
     text = {"Description": f"test pattern {name}", "Settings": json.dumps(settings)}
-    picture(name, screen, **given).save(path, text=text)
+    picture(name, screen, blue_only=blue_only, **given).save(path, text=text)

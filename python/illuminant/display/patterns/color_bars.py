@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from illuminant.display.patterns.screen import Values
+    from illuminant.display.patterns.screen import Color, Values
 
     Array = NDArray[np.float64]
 
@@ -139,7 +139,7 @@ def eia(screen: Screen, *, setup: float = SETUP) -> Values:
     """EIA bars for a frame buffer: −I and +Q lifted (figure 5.17)."""
     values = screen.blank()
     _seven(screen, values, 0.75)
-    bottom = [minus_i(lift=True, setup=setup), 1.0, plus_q(lift=True, setup=setup), 0.0]
+    bottom: list[Color] = [minus_i(lift=True, setup=setup), 1.0, plus_q(lift=True, setup=setup), 0.0]
     screen.bars(values, bottom, [5 / 4, 5 / 4, 5 / 4, 13 / 4], 0.75, 1.0)
     return values
 
@@ -169,7 +169,7 @@ def smpte(screen: Screen, *, setup: float = SETUP) -> Values:
     _seven(screen, values, 2 / 3)
     split = ["blue", "", "magenta", "", "cyan", "", "white"]
     screen.bars(values, [bars[name] if name else 0.0 for name in split], [1] * 7, 2 / 3, 3 / 4)
-    bottom = [
+    bottom: list[Color] = [
         minus_i(lift=True, setup=setup),
         1.0,
         plus_q(lift=True, setup=setup),

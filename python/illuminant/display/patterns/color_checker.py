@@ -145,7 +145,7 @@ def patches(
     level = white_luminance or (203.0 if shown.peak >= 1000.0 else shown.peak)
     xyz = chart_xyz(shown.white, chart, light) * level
     linear = np.asarray(shown.from_xyz(xyz), np.float64)
-    beyond = ((linear < -OUTSIDE) | (linear > 1.0 + OUTSIDE)).any(axis=1)
+    beyond = np.asarray(((linear < -OUTSIDE) | (linear > 1.0 + OUTSIDE)).any(axis=1))
     codes = np.clip(shown.encode(np.clip(linear, 0.0, 1.0)), 0.0, 1.0)
     names = tuple(name for name, out in zip(NAMES, beyond.tolist(), strict=True) if out)
     return Patches(NAMES, xyz, linear, np.asarray(codes, np.float64), names, level)

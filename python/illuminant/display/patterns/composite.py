@@ -77,7 +77,7 @@ def yiq_to_rgb(yiq: ArrayLike) -> Array:
         >>> (yiq_to_rgb([0.0, 1.0, 0.0]).round(3) + 0.0).tolist()
         [0.956, -0.272, -1.107]
         >>> (yiq_to_rgb([0.0, 0.0, 1.0]).round(3) + 0.0).tolist()
-        [0.621, -0.647, 1.703]
+        [0.621, -0.647, 1.704]
     """
     import numpy as np
 

@@ -1,7 +1,7 @@
 """Resolution wedges: lines that run together, in black and white or along one axis of Y_t I Q.
 
-A wedge has n pairs of lines side by side, which get finer from top to bottom by the same factor in every step down, from
-30 to `lines`. Where they merge, the display, or the signal on its way to it, resolves no more. Figures at the side say
+A wedge has n pairs of lines side by side, finer from top to bottom by the same factor in each step down, from 30 to
+`lines`. Where they merge, the display, or the signal on its way to it, resolves no more. Figures at the side say
 how fine: lines (light and dark counted) in a length equal to the picture's height.
 
 Along I and Q, Y_t stays at 0.5 and the lines differ in colour alone. All three wedges have the same geometry (book
@@ -59,13 +59,13 @@ def _square(phase: NDArray[np.float64], width: NDArray[np.float64]) -> NDArray[n
     return (integral(phase + width / 2) - integral(phase - width / 2)) / width
 
 
-def wedges(screen: Screen, *, axis: str = "all", lines: int = 800) -> Values:
+def wedges(screen: Screen, *, axis: str = "all", lines: int | None = None) -> Values:
     """A wedge for each axis, side by side, or for one.
 
     Args:
         screen: what it is drawn for.
         axis: "Y", "I", "Q", or "all".
-        lines: the finest, in lines per picture height; above 30.
+        lines: the finest, in lines per picture height; above 30; default what the pixels can show, up to 800.
 
     Raises:
         UsageError: axis or lines are not possible.
@@ -75,6 +75,7 @@ def wedges(screen: Screen, *, axis: str = "all", lines: int = 800) -> Values:
     chosen = AXES if axis == "all" else (axis.upper(),)
     if not set(chosen) <= set(AXES):
         raise UsageError(f"An axis is {', '.join(AXES)} or all, not {axis!r}.")
+    lines = min(800, screen.height) if lines is None else lines
     if not COARSEST < lines <= 4000:
         raise UsageError(
             f"The finest wedge has {COARSEST + 1} to 4000 lines per picture height, not {lines}."
