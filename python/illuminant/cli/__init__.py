@@ -159,8 +159,8 @@ def _foreign(error: Exception, prog_name: str) -> int:
     context = getattr(error, "ctx", None)
     path = getattr(context, "command_path", prog_name) or prog_name
     text = " ".join(str(message()).split()).rstrip(".")
-    for pattern, plain in _PLAINER:
-        text = re.sub(pattern, plain, text)
+    for theirs, plain in _PLAINER:
+        text = re.sub(theirs, plain, text)
     sentence("Error", f"{text} (see `{path} --help`).")
     return 2
 

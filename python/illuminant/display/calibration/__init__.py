@@ -14,8 +14,9 @@
 | `monitor` | a simulated monitor, and the instrument before it |
 | `record` | the record of a monitor, and when to calibrate again |
 
-Two ways lead to right colours. The book's turns the knobs until greys are D6500 at all levels. The modern one leaves the
-monitor as it is, and corrects by its description. Both need readings, and the first is better followed by the second.
+Two ways lead to right colours. The book's turns the knobs until greys are D6500 at all levels. The modern one leaves
+the monitor as it is, and corrects by its description. Both need readings, and the first is better followed by the
+second.
 
 Example:
     >>> from illuminant.display.calibration import fit, monitor, readings, report

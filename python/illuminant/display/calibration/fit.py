@@ -2,10 +2,13 @@
 
 The model is that of Berns (1996), gain, offset, gamma: with code values v from 0 to 1,
 
-    l_k = max(g_k v_k + 1 − g_k, 0)^γ_k,   XYZ = K + Σ_k l_k P_k
+    D_k(v) = max(g_k v + o_k, 0)^γ_k,   l_k = (D_k(v_k) − D_k(0)) / (1 − D_k(0)),   XYZ = K + Σ_k l_k P_k
 
-so that gun k at full code gives its primary P_k, an offset 1 − g_k below 0 cuts it off above black, and K is what the
-screen gives without them: the room's light on the glass. All 18 numbers are found together from all readings, by
+with an offset o_k = 1 − g_k, so that l_k rises from 0 at code 0 to 1 at full code, where gun k adds its primary P_k. An
+offset below 0 cuts the gun off above black. K is black: the room's light on the glass, and what guns that are not cut
+off give at code 0. This is the response `gain-offset-gamma` of `illuminant.display.displays`.
+
+All 18 numbers are found together from all readings, by
 Levenberg and Marquardt's method on residuals in units of the instrument's error √(floor² + (relative · reading)²); so
 dark readings, which err most, count least (book 5.1.2: the low end must be cut off, and where is trial and error).
 Residuals beyond 2.5 of their robust spread count less (Huber 1964), and readings beyond 6 are named as outliers.
@@ -69,8 +72,8 @@ class Characterisation:
     """The numbers of the model.
 
     Attributes:
-        primaries: (3, 3) XYZ of red, green and blue at full code, in rows, cd/m².
-        black: (3,) XYZ without any gun, cd/m².
+        primaries: (3, 3) XYZ that red, green and blue add at full code, in rows, cd/m².
+        black: (3,) XYZ at code 0, cd/m².
         gain: (3,) g of each gun; the offset is 1 − g.
         gamma: (3,) γ of each gun.
     """
@@ -95,7 +98,14 @@ class Characterisation:
         import numpy as np
 
         drive = self.gain * np.asarray(codes, np.float64) + self.offset
-        return np.asarray(np.maximum(drive, 0.0) ** self.gamma)
+        zero = self._zero()
+        return np.asarray((np.maximum(drive, 0.0) ** self.gamma - zero) / (1.0 - zero))
+
+    def _zero(self) -> Array:
+        """D(0) of each gun: what it gives at code 0 before it is counted as black."""
+        import numpy as np
+
+        return np.asarray(np.maximum(self.offset, 0.0) ** self.gamma)
 
     def xyz(self, codes: ArrayLike) -> Array:
         """XYZ (..., 3) in cd/m² of code values (..., 3)."""
@@ -113,7 +123,8 @@ class Characterisation:
         """Code values (..., 3), clamped to 0 to 1, that make each gun give this much."""
         import numpy as np
 
-        part = np.clip(np.asarray(linear, np.float64), 0.0, 1.0)
+        zero = self._zero()
+        part = np.clip(np.asarray(linear, np.float64), 0.0, 1.0) * (1.0 - zero) + zero
         return np.asarray(np.clip((part ** (1.0 / self.gamma) - self.offset) / self.gain, 0.0, 1.0))
 
     def reachable(self, xy: tuple[float, float]) -> float:
@@ -321,12 +332,20 @@ def _jacobian(numbers: Array, codes: Array) -> Array:
     import numpy as np
 
     model = _model(numbers)
-    drive = model.gain * codes + model.offset
-    lit = drive > 1e-9
-    safe = np.where(lit, drive, 1.0)
-    light = np.where(lit, safe**model.gamma, 0.0)
-    by_gain = np.where(lit, model.gamma * safe ** (model.gamma - 1.0) * (codes - 1.0), 0.0)
-    by_gamma = np.where(lit, light * np.log(safe), 0.0)
+
+    def power(v: Array) -> tuple[Array, Array, Array]:
+        """D at code values, and its derivatives by gain and γ."""
+        drive = model.gain * v + model.offset
+        lit = drive > 1e-9
+        safe = np.where(lit, drive, 1.0)
+        value = np.where(lit, safe**model.gamma, 0.0)
+        slope = np.where(lit, model.gamma * safe ** (model.gamma - 1.0) * (v - 1.0), 0.0)
+        return value, slope, np.where(lit, value * np.log(safe), 0.0)
+
+    (full, full_gain, full_gamma), (zero, zero_gain, zero_gamma) = power(codes), power(np.zeros(3))
+    light = (full - zero) / (1.0 - zero)
+    by_gain = (full_gain - zero_gain * (1.0 - light)) / (1.0 - zero)
+    by_gamma = (full_gamma - zero_gamma * (1.0 - light)) / (1.0 - zero)
     found = np.zeros((len(codes), 3, 18))
     for channel in range(3):
         found[:, channel, 9 + channel] = 1.0

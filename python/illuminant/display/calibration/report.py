@@ -26,7 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from illuminant.display.calibration.monitor import D6500, WHITE_LUMINANCE
 
@@ -78,6 +78,22 @@ class Chart:
     max: float
     mean_all: float
     white: float
+
+
+class Description(Protocol):
+    """What the report needs of a description: `Characterisation` has it, and `description.Described`."""
+
+    def linear(self, xyz: Any) -> Array:
+        """How much of each primary a colour in cd/m² needs."""
+        ...
+
+    def codes(self, linear: Any) -> Array:
+        """Code values of amounts of the primaries, clamped."""
+        ...
+
+    def reachable(self, xy: tuple[float, float]) -> float:
+        """The highest luminance of a white of this chromaticity, cd/m²."""
+        ...
 
 
 class Grey(NamedTuple):
@@ -162,9 +178,7 @@ def nominal_chart(
     return _judged(relative * level, show(codes), outside, white, level)
 
 
-def chart_codes(
-    model: Characterisation, white: tuple[float, float] = D6500
-) -> tuple[Array, Array, Mask, float]:
+def chart_codes(model: Description, white: tuple[float, float] = D6500) -> tuple[Array, Array, Mask, float]:
     """Code values (24, 3) that show the chart through a description, XYZ meant, what is outside, and the white."""
     from illuminant.display.patterns.color_checker import chart_xyz
 
@@ -176,7 +190,7 @@ def chart_codes(
 
 
 def described_chart(
-    show: Show, model: Characterisation, *, white: tuple[float, float] = D6500, bits: int | None = None
+    show: Show, model: Description, *, white: tuple[float, float] = D6500, bits: int | None = None
 ) -> Chart:
     """The chart on a monitor that is driven through its description.
 

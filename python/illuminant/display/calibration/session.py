@@ -2,8 +2,8 @@
 
 The folder holds
 
-- `index.html`: shows one pattern after another, pixel for pixel, full screen; arrow keys step, `f` fills the screen, `t`
-  hides the words;
+- `index.html`: shows one pattern after another, pixel for pixel, full screen; arrow keys step, `f` fills the screen,
+  `t` hides the words;
 - PNGs: those to adjust by, in the order of `illuminant.display.calibration.guide`, and a window for each reading;
 - `readings.csv`: the code values of these windows, with empty places (see `readings`).
 
@@ -19,7 +19,7 @@ import html
 import json
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from illuminant import output
 from illuminant.display.calibration import readings
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ADJUST", "write"]
 
-ADJUST: tuple[tuple[str, str, dict[str, object]], ...] = (
+ADJUST: tuple[tuple[str, str, dict[str, Any]], ...] = (
     ("warm-up", "black", {}),
     ("crosshatch", "crosshatch", {}),
     ("dots", "dots", {}),

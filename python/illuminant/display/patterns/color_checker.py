@@ -134,15 +134,14 @@ def patches(
         display: a `Display`, or a name of one.
         chart: a name of `CHARTS`.
         light: the lamp on the measured charts.
-        white_luminance: of a perfect diffuser, cd/m²; default the display's peak, or 203 on one with a peak above
-            1000 (BT.2408: HDR reference white).
+        white_luminance: of a perfect diffuser, cd/m²; default that at which the display shows it.
     """
     import numpy as np
 
     from illuminant.display.displays import named
 
-    shown = named(display) if isinstance(display, str) else display
-    level = white_luminance or (203.0 if shown.peak >= 1000.0 else shown.peak)
+    shown = named(display)
+    level = white_luminance or shown.shown_white
     xyz = chart_xyz(shown.white, chart, light) * level
     linear = np.asarray(shown.from_xyz(xyz), np.float64)
     beyond = np.asarray(((linear < -OUTSIDE) | (linear > 1.0 + OUTSIDE)).any(axis=1))

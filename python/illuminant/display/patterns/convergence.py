@@ -40,8 +40,8 @@ def _marks(length: int, spacing: float, thickness: int) -> NDArray[np.bool_]:
 
 
 def _grid(screen: Screen, count: int, thickness: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    if not 1 <= count <= screen.height // 8:
-        raise UsageError(f"A crosshatch has 1 to {screen.height // 8} squares in the height, not {count}.")
+    if not 1 <= count <= screen.height // 4:
+        raise UsageError(f"A crosshatch has 1 to {screen.height // 4} squares in the height, not {count}.")
     spacing = (screen.height - thickness) / count
     return _marks(screen.width, spacing, thickness), _marks(screen.height, spacing, thickness)
 

@@ -72,7 +72,7 @@ class Screen:
         """What shows the pattern."""
         from illuminant.display.displays import named
 
-        return named(self.display_name) if isinstance(self.display_name, str) else self.display_name
+        return named(self.display_name)
 
     @property
     def most(self) -> int:
