@@ -325,7 +325,7 @@ def test_a_description_comes_back_from_its_file_and_shows_what_the_fit_says(tmp_
     assert display == description.to_display(model, 'left "bright" monitor')
     codes = np.random.default_rng(4).random((50, 3))
     # All but the tint of black, which a display does not have.
-    np.testing.assert_allclose(display.to_xyz(codes), model.xyz(codes), rtol=2e-3, atol=0.03)
+    np.testing.assert_allclose(display.to_xyz(codes), model.xyz(codes), rtol=1e-3, atol=0.05)
     through = report.described_chart(bad.xyz, description.Described(display), bits=8)
     assert through.mean < 0.4
 
@@ -494,7 +494,7 @@ def entry(day, white=(97.9, 103.0, 112.2), kind="analyzer"):
 def test_a_record_tells_how_far_a_monitor_moved_and_when_to_look_again(tmp_path):
     path = tmp_path / "log.csv"
     assert record.append(path, entry("2026-01-01", kind="full")).moved is None
-    second = record.append(path, entry("2026-01-31"), found=((100.5, 103.0, 112.2), (2.8, 3.0, 3.3)))
+    second = record.append(path, entry("2026-01-31"), found=((98.6, 103.0, 112.2), (2.8, 3.0, 3.3)))
     assert 1.0 < second.moved < 5.0
     entries = record.read(path)
     assert len(entries) == 2 and entries[1].moved == pytest.approx(second.moved, abs=0.01)

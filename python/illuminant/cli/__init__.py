@@ -23,6 +23,7 @@ from illuminant.cli import (
     check,
     compare,
     diff,
+    display,
     info,
     new,
     pattern,
@@ -52,6 +53,7 @@ app.command("new", short_help="Write a commented starter scene.")(new.new)
 app.command("check", short_help="Report every mistake of a scene.")(check.check)
 app.command("render", short_help="Render a scene to an image.")(render.render)
 app.command("compare", short_help="Render by every technique and model.")(compare.compare)
+app.command("display", short_help="Show an image on a display.")(display.display)
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("audit", short_help="Test the physics of a material.")(audit.audit)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
