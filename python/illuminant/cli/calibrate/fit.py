@@ -34,7 +34,7 @@ def fit(
         typer.Option("--name", metavar="NAME", help="Of the display (that of FILE).", show_default=False),
     ] = None,
     assumed: Annotated[
-        str, typer.Option("--assumed", metavar="NAME", help="RGB system it was taken for before.")
+        str, typer.Option("--assumed", metavar="NAME", help="Display it was taken for before.")
     ] = "sRGB",
     low: Annotated[
         float,

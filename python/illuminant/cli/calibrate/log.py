@@ -84,7 +84,7 @@ def log(
         )
         return
     if entry is not None:
-        typer.echo(f"{record}: {len(entries)} entries")
+        typer.echo(f"{record}: {len(entries)} {'entry' if len(entries) == 1 else 'entries'}")
     typer.echo(next_time.reason)
     typer.echo(f"next with the analyzer: {next_time.analyzer}; in full: {next_time.full}")
 

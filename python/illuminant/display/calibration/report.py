@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from illuminant.color import RgbSystem
     from illuminant.display.calibration.fit import Characterisation
     from illuminant.display.calibration.readings import Readings
+    from illuminant.display.displays import Display
 
     Array = NDArray[np.float64]
     Mask = NDArray[np.bool_]
@@ -156,25 +156,27 @@ def _outside(linear: NDArray[np.floating[Any]]) -> Mask:
 
 
 def nominal_chart(
-    show: Show, *, assumed: str | RgbSystem = "sRGB", white: tuple[float, float] = D6500
+    show: Show, *, assumed: str | Display = "sRGB", white: tuple[float, float] = D6500
 ) -> Chart:
     """The chart on a monitor that is taken for another.
 
     Args:
         show: XYZ in cd/m² of code values: a monitor, or a description of one.
-        assumed: RGB system that it is taken for.
+        assumed: display that it is taken for, or its name.
         white: x and y of the white that is meant; the diffuser is as bright as the monitor's own white.
     """
     import numpy as np
 
-    from illuminant import color
+    from illuminant.display.displays import named
     from illuminant.display.patterns.color_checker import chart_xyz
 
     level = float(show(np.ones(3))[1])
     relative = chart_xyz(white)
-    linear = color.xyz_to_rgb(relative, assumed)
+    taken_for = named(assumed)
+    # As fractions of its white: the display's own luminances do not matter here.
+    linear = relative @ taken_for.from_xyz_matrix.T
     outside = _outside(linear)
-    codes = np.clip(color.encode(np.clip(linear, 0.0, 1.0), assumed), 0.0, 1.0)
+    codes = np.clip(taken_for.encode(np.clip(linear, 0.0, 1.0)), 0.0, 1.0)
     return _judged(relative * level, show(codes), outside, white, level)
 
 

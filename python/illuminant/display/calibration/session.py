@@ -111,8 +111,11 @@ def write(
         DataError: a table there has readings already; it is not overwritten.
     """
     from illuminant.display import patterns
+    from illuminant.display.patterns.screen import Screen
     from illuminant.errors import DataError
 
+    # A wrong window is told before anything is written.
+    patterns.draw("window", Screen(32, 32), window=window)
     folder = Path(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
