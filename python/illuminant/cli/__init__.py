@@ -19,6 +19,7 @@ import typer
 
 from illuminant.cli import (
     audit,
+    calibrate,
     check,
     compare,
     diff,
@@ -26,6 +27,7 @@ from illuminant.cli import (
     gamma,
     info,
     new,
+    pattern,
     radiosity,
     render,
     spectra,
@@ -58,6 +60,8 @@ app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("audit", short_help="Test the physics of a material.")(audit.audit)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
 app.add_typer(gamma.app, name="gamma", short_help="Tables, fits and studies of a monitor's gamma.")
+app.command("pattern", short_help="Draw a test pattern for a display.")(pattern.pattern)
+app.add_typer(calibrate.app, name="calibrate", short_help="Adjust, measure and describe a display.")
 app.add_typer(radiosity.app, name="radiosity", short_help="Solve for light between surfaces, relight.")
 app.add_typer(spectra.app, name="spectra", short_help="List, show, plot, convert measured spectra.")
 app.add_typer(video.app, name="video", short_help="Send pictures through NTSC, and check them.")
@@ -161,8 +165,8 @@ def _foreign(error: Exception, prog_name: str) -> int:
     context = getattr(error, "ctx", None)
     path = getattr(context, "command_path", prog_name) or prog_name
     text = " ".join(str(message()).split()).rstrip(".")
-    for pattern, plain in _PLAINER:
-        text = re.sub(pattern, plain, text)
+    for theirs, plain in _PLAINER:
+        text = re.sub(theirs, plain, text)
     sentence("Error", f"{text} (see `{path} --help`).")
     return 2
 
