@@ -369,6 +369,38 @@ class _Profile(TypedDict):
 def decode_icc(content: bytes, samples: int) -> _Profile:
     """The display that an ICC profile describes, with its own white and primaries; `table` is (3, samples)."""
 
+def dithers() -> list[str]:
+    """The names of the dithers."""
+
+def dither(
+    values: NDArray[np.float32] | NDArray[np.float64],
+    bits: int,
+    name: str,
+    seed: int = 0,
+    *,
+    channels_alike: bool = False,
+) -> NDArray[np.uint8] | NDArray[np.uint16]:
+    """Codes of 1 to 16 bits (uint8 up to 8) of values 0..1 in an array (h, w, c), of the same shape.
+
+    What is no number counts as 0, what lies outside 0..1 is clamped. `seed` matters to `random` only. Tiles of `bayer-N`
+    and `blue-noise` are shifted from channel to channel unless `channels_alike`. A float32 array in one piece is
+    not copied.
+    """
+
+def dither_thresholds(name: str) -> NDArray[np.float32] | None:
+    """The tile (h, w) of thresholds of a dither that has one: code = floor(value (2^bits - 1) + threshold)."""
+
+def patterning(
+    values: NDArray[np.float32] | NDArray[np.float64], bits: int, cell: tuple[int, int], *, enlarge: bool
+) -> NDArray[np.uint8] | NDArray[np.uint16]:
+    """Codes of an array (h, w, c) in cells of width × height pixels.
+
+    Every pixel becomes a cell, or, in an image of the same size, every cell shows the mean of its pixels.
+    """
+
+def patterning_turns(cell: tuple[int, int]) -> NDArray[np.uint32]:
+    """When each pixel (h, w) of a cell of width × height is switched on, 0 first."""
+
 def audit_material(
     scene: Scene,
     material: int,

@@ -1,4 +1,5 @@
-//! Speed of the dithers on a picture of 3840 × 2160: `cargo run --release -p illuminant-display --example dither_speed [WxH] [NAME …]`.
+//! Speed of the dithers on a picture of 3840 × 2160:
+//! `cargo run --release -p illuminant-display --example dither_speed [WxH] [NAME …]`.
 //!
 //! Megapixels (of three channels) a second, f32 to 8 bits into a buffer that exists: the best of several runs.
 #![allow(clippy::print_stdout)]

@@ -1,13 +1,15 @@
 //! Void and cluster (Ulichney 1993): a tile of thresholds without low frequencies.
 //!
-//! Each pixel of a 64 × 64 torus gets a rank. Pixels that are on spread a Gaussian (σ = 1.5 pixels) around them; the pixel that is on
-//! where the sum is largest is the tightest cluster, the one that is off where it is smallest the largest void. A tenth of the pixels
-//! is switched on at random, and the tightest cluster moved into the largest void until it would move back. From
-//! there ranks go down by taking clusters away, and up by filling voids. (Past half, Ulichney looks for clusters of pixels
-//! that are off. On a torus the two sums add to a constant, so these are the voids.)
+//! Each pixel of a 64 × 64 torus gets a rank. Pixels that are on spread a Gaussian (σ = 1.5 pixels) around them;
+//! the pixel that is on where the sum is largest is the tightest cluster, the one that is off where it is smallest
+//! the largest void. A tenth of the pixels is switched on at random, and the tightest cluster moved into the
+//! largest void until it would move back. From there ranks go down by taking clusters away, and up by filling
+//! voids. (Past half, Ulichney looks for clusters of pixels that are off. On a torus the two sums add to a
+//! constant, so these are the voids.)
 //!
-//! Sums are whole numbers, so that what is added can be taken away again exactly and every machine finds the same tile.
-//! Blue noise carries no structure at any scale; so channels are shifted far, by the R₂ sequence (Roberts 2018).
+//! Sums are whole numbers, so that what is added can be taken away again exactly and every machine finds the same
+//! tile. Blue noise carries no structure at any scale; so channels are shifted far, by the R₂ sequence (Roberts
+//! 2018).
 
 use super::Thresholds;
 use std::sync::OnceLock;

@@ -1,20 +1,22 @@
 //! Dot diffusion (Knuth 1987): error diffusion in an order that is the same in every small cell.
 //!
-//! A matrix of classes is laid over the image. Classes are taken in order; the pixels of a class get the code nearest to
-//! d = v(2ᵇ − 1) + what they have been given, and divide their error e = d − code among the neighbours of higher class: two parts to each
-//! of the four beside it, one to each of the four at its corners, across the borders of cells. A pixel without such neighbours
-//! (a *baron*) keeps its error, and so does what would be given over the edge of the image: both are lost. So an error never travels far,
-//! and there are no ghosts of it elsewhere; at one bit the codes grow as dots around the barons.
+//! A matrix of classes is laid over the image. Classes are taken in order; the pixels of a class get the code
+//! nearest to d = v(2ᵇ − 1) + what they have been given, and divide their error e = d − code among the neighbours
+//! of higher class: two parts to each of the four beside it, one to each of the four at its corners, across the
+//! borders of cells. A pixel without such neighbours (a *baron*) keeps its error, and so does what would be given
+//! over the edge of the image: both are lost. So an error never travels far, and there are no ghosts of it
+//! elsewhere; at one bit the codes grow as dots around the barons.
 //!
-//! In f32, where the bits are defined: q = e · (1/parts), each pixel computes d = v(2ᵇ − 1) + (2s + c), with s the sum of q over the
-//! neighbours of lower class above, left, right and below, in this order, and c over those above left, above right, below left and below
-//! right; code = ⌊d + ½⌋, clamped to 0 … 2ᵇ − 1.
+//! In f32, where the bits are defined: q = e · (1/parts), each pixel computes d = v(2ᵇ − 1) + (2s + c), with s the
+//! sum of q over the neighbours of lower class above, left, right and below, in this order, and c over those above
+//! left, above right, below left and below right; code = ⌊d + ½⌋, clamped to 0 … 2ᵇ − 1.
 //!
-//! Order of work: since errors travel no farther than five pixels in these two matrices, an image is cut into tiles, each computed with a border of cells that
-//! are thrown away. In a tile, the pixels of one class in all cells lie side by side, so that a vector holds eight
-//! cells, and a neighbour is the same place in another class's plane, or one beside it.
+//! Order of work: since errors travel no farther than five pixels in these two matrices, an image is cut into
+//! tiles, each computed with a border of cells that are thrown away. In a tile, the pixels of one class in all
+//! cells lie side by side, so that a vector holds eight cells, and a neighbour is the same place in another class's
+//! plane, or one beside it.
 
-use super::{Code, DitherError, to_code, top, unit};
+use super::{Code, DitherError, one_by_one, to_code, top, unit};
 use rayon::prelude::*;
 
 /// Which pixels of a cell come first.
@@ -51,10 +53,10 @@ impl ClassMatrix {
         Self { size: 8, classes }
     }
 
-    /// A cell of 4 × 4, as in the book's figure 5.12. The book prints no matrix; this one is built as Knuth's is: classes half a
-    /// cell apart in a row add up to the highest, so that dark and light dots mirror each other. Its two barons
-    /// lose up to half a code each: a field may be wrong by a sixteenth of a code, and at one bit the darkest and lightest
-    /// greys are lost.
+    /// A cell of 4 × 4, as in the book's figure 5.12. The book prints no matrix; this one is built as Knuth's is:
+    /// classes half a cell apart in a row add up to the highest, so that dark and light dots mirror each other. Its
+    /// two barons lose up to half a code each: a field may be wrong by a sixteenth of a code, and at one bit the
+    /// darkest and lightest greys are lost.
     #[must_use]
     pub fn four() -> Self {
         #[rustfmt::skip]
@@ -144,8 +146,8 @@ struct Class {
     share: f32,
 }
 
-/// Planes of a tile: for each place of the cell and each channel, the cells in rows. A cell more on every side keeps
-/// neighbours within the plane; what it holds has no part in codes that are kept.
+/// Planes of a tile: for each place of the cell and each channel, the cells in rows. A cell more on every side
+/// keeps neighbours within the plane; what it holds has no part in codes that are kept.
 struct Layout {
     size: usize,
     channels: usize,
@@ -183,6 +185,12 @@ pub(super) fn quantise<T: Code>(
     matrix: &ClassMatrix,
     codes: &mut [T],
 ) {
+    if channels > 4 {
+        // The planes of a tile would outgrow the cache.
+        return one_by_one(values, channels, codes, |values, codes| {
+            quantise(values, width, 1, bits, matrix, codes);
+        });
+    }
     let layout = Layout::new(matrix, channels);
     let classes: Vec<Class> = matrix
         .order()

@@ -1,4 +1,5 @@
-//! Error diffusion: what a pixel is shown too dark, its neighbours are shown lighter (book 5.1.4; Floyd and Steinberg 1976).
+//! Error diffusion: what a pixel is shown too dark, its neighbours are shown lighter (book 5.1.4; Floyd and
+//! Steinberg 1976).
 //!
 //! Pixels are taken in rows from the top, left to right. With the errors e of neighbours that came before,
 //!
@@ -6,18 +7,18 @@
 //!
 //! where the weights of [`Weights`] sum to 1. An error that would leave the image is lost.
 //!
-//! Numbers are fixed point in i32 with F = 30 − max(b, 8) binary places; v(2ᵇ − 1)2ᶠ is one product in f32, cut to a whole
-//! number, and the weighted sum is (Σ 16wᵢ eᵢ + 8) >> 4. So the result is the same bits in any order of evaluation. And −½ ≤ e < ½
-//! always: the sum of errors stays in that interval too, hence 0 gives code 0 and 1 the highest code beside any neighbour, and
-//! no code needs to be clamped.
+//! Numbers are fixed point in i32 with F = 30 − max(b, 8) binary places; v(2ᵇ − 1)2ᶠ is one product in f32, cut to
+//! a whole number, and the weighted sum is (Σ 16wᵢ eᵢ + 8) >> 4. So the result is the same bits in any order of
+//! evaluation. And −½ ≤ e < ½ always: the sum of errors stays in that interval too, hence 0 gives code 0 and 1 the
+//! highest code beside any neighbour, and no code needs to be clamped.
 //!
-//! Order of work: a pixel needs its left neighbour and three above it. Eight rows go through together, one in each lane of a
-//! vector, each two pixels behind the row above, so that all that a pixel needs is in the vectors of one to three steps before;
-//! the lowest row leaves its errors for the next band of eight. Threads take the bands in turn and follow one another at a
-//! distance. (One row at a time, as the serpentine order needs it, runs at a third
+//! Order of work: a pixel needs its left neighbour and three above it. Eight rows go through together, one in each
+//! lane of a vector, each two pixels behind the row above, so that all that a pixel needs is in the vectors of one
+//! to three steps before; the lowest row leaves its errors for the next band of eight. Threads take the bands in
+//! turn and follow one another at a distance. (One row at a time, as the serpentine order needs it, runs at a third
 //! of the speed.)
 
-use super::{Code, unit};
+use super::{Code, one_by_one, unit};
 use std::sync::atomic::{AtomicI32, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -49,9 +50,12 @@ const LAG: usize = 2;
 const SKEW: usize = LAG * (LANES - 1);
 /// Pixels that a row advances at a time.
 const BLOCK: usize = 8;
-/// A thread tells how far it is after so many blocks, and one that must wait lets the other go ahead by as much: each
-/// telling takes the line of memory from the other core.
+/// A thread tells how far it is after so many blocks, and one that must wait lets the other go ahead by as much:
+/// each telling takes the line of memory from the other core.
 const BLOCKS_BETWEEN: usize = 16;
+
+/// So a band follows the one above at about this distance, in pixels.
+const DISTANCE: usize = SKEW + 2 * BLOCKS_BETWEEN * BLOCK;
 
 type Lanes = [i32; LANES];
 
@@ -71,7 +75,8 @@ impl Fixed {
     #[inline(always)]
     fn of(self, value: f32) -> i32 {
         let scaled = unit(value) * self.scale;
-        // SAFETY: `unit` is in [0, 1] and never NaN, and `scale` is below 2³⁰. (The checked conversion halves the speed.)
+        // SAFETY: `unit` is in [0, 1] and never NaN, and `scale` is below 2³⁰. (The checked conversion halves the
+        // speed.)
         unsafe { scaled.to_int_unchecked() }
     }
 
@@ -106,17 +111,9 @@ pub(super) fn quantise<T: Code>(
         (Weights::Book, 2) => wavefront::<T, 2, 6, 0, 6, 4>(values, width, fixed, codes),
         (Weights::Book, 3) => wavefront::<T, 3, 6, 0, 6, 4>(values, width, fixed, codes),
         (Weights::Book, 4) => wavefront::<T, 4, 6, 0, 6, 4>(values, width, fixed, codes),
-        _ => {
-            // Channels know nothing of each other, so each may be an image of its own.
-            for channel in 0..channels {
-                let plane: Vec<f32> = values.iter().skip(channel).step_by(channels).copied().collect();
-                let mut plane_codes = vec![T::default(); plane.len()];
-                quantise(&plane, width, 1, bits, weights, &mut plane_codes);
-                for (code, of_plane) in codes.iter_mut().skip(channel).step_by(channels).zip(plane_codes) {
-                    *code = of_plane;
-                }
-            }
-        }
+        _ => one_by_one(values, channels, codes, |values, codes| {
+            quantise(values, width, 1, bits, weights, codes);
+        }),
     }
 }
 
@@ -128,9 +125,10 @@ fn wavefront<T: Code, const C: usize, const R: i32, const BL: i32, const B: i32,
 ) {
     let row = width * C;
     let bands = values.len().div_ceil(row * LANES);
-    let workers = rayon::current_num_threads().min(bands);
-    // Bands end in order, so with one seam more than workers the one that a band overwrites has been read to its end.
-    // A seam holds a pixel to the left of the image and some to the right; their errors stay 0.
+    // Threads beyond those that fit into a row, one behind the other, would only wait.
+    let workers = rayon::current_num_threads().min(bands).min(1 + width / DISTANCE);
+    // Bands end in order, so with one seam more than workers the one that a band overwrites has been read to its
+    // end. A seam holds a pixel to the left of the image and some to the right; their errors stay 0.
     let length = (1 + width + BLOCK + SKEW + LAG) * C;
     let seams: Vec<Seam> =
         (0..=workers).map(|_| Seam { errors: (0..length).map(|_| AtomicI32::new(0)).collect() }).collect();
@@ -139,8 +137,8 @@ fn wavefront<T: Code, const C: usize, const R: i32, const BL: i32, const B: i32,
     let done: Vec<AtomicUsize> =
         (0..=bands).map(|i| AtomicUsize::new(if i == 0 { width } else { 0 })).collect();
     let next = Mutex::new(values.chunks(row * LANES).zip(codes.chunks_mut(row * LANES)).enumerate());
-    // A worker takes the next band and waits only for the one before, which a worker has taken that runs already: so
-    // even one worker comes to the end.
+    // A worker takes the next band and waits only for the one before, which a worker has taken that runs already:
+    // so even one worker comes to the end.
     let work = || {
         loop {
             let taken = next.lock().unwrap_or_else(PoisonError::into_inner).next();
@@ -224,7 +222,8 @@ fn transpose(m: [Lanes; 8]) -> [Lanes; 8] {
     ]
 }
 
-/// Errors of the steps before, for each channel: of the pixel to the left, and of those above, one to three steps ago.
+/// Errors of the steps before, for each channel: of the pixel to the left, and of those above, one to three steps
+/// ago.
 #[derive(Clone, Copy)]
 struct History<const C: usize> {
     left: [Lanes; C],
@@ -245,7 +244,8 @@ fn band_of_rows<T: Code, const C: usize, const R: i32, const BL: i32, const B: i
     let rows = values.len() / row;
     before.wait(LAG);
     let mut history = History { left: [[0; LANES]; C], above: [[[0; LANES]; C]; 3] };
-    // The pixels above the first, right of it, straight above and left of it, are what lane 0 has seen one to three steps ago.
+    // The pixels above the first, right of it, straight above and left of it, are what lane 0 has seen one to three
+    // steps ago.
     for (steps, lanes) in history.above.iter_mut().enumerate() {
         for (channel, lanes) in lanes.iter_mut().enumerate() {
             lanes[0] = above.errors[(LAG - steps) * C + channel].load(Ordering::Relaxed);
@@ -346,8 +346,8 @@ fn band_of_rows<T: Code, const C: usize, const R: i32, const BL: i32, const B: i
     done.store(width, Ordering::Release);
 }
 
-/// A block of pixels in every row of a band: codes of values; the last row's errors go to `out`. With `MASKED`, lanes whose
-/// mask is 0 have no pixel, so no error.
+/// A block of pixels in every row of a band: codes of values; the last row's errors go to `out`. With `MASKED`,
+/// lanes whose mask is 0 have no pixel, so no error.
 #[inline(always)]
 #[expect(clippy::needless_range_loop)] // indices run over several arrays
 fn steps<const C: usize, const R: i32, const BL: i32, const B: i32, const BR: i32, const MASKED: bool>(
@@ -388,8 +388,8 @@ fn steps<const C: usize, const R: i32, const BL: i32, const B: i32, const BR: i3
     *history = History { left, above: [above1, above2, above3] };
 }
 
-/// Every other row backwards, which breaks the worms of the plain order. A row needs all of the row above, so channels are
-/// all that can be done side by side.
+/// Every other row backwards, which breaks the worms of the plain order. A row needs all of the row above, so
+/// channels are all that can be done side by side.
 pub(super) fn quantise_serpentine<T: Code>(
     values: &[f32],
     width: usize,
@@ -404,16 +404,9 @@ pub(super) fn quantise_serpentine<T: Code>(
         1 => serpentine::<T, 1>(values, width, fixed, weights, codes),
         3 => serpentine::<T, 3>(values, width, fixed, weights, codes),
         4 => serpentine::<T, 4>(values, width, fixed, weights, codes),
-        _ => {
-            for channel in 0..channels {
-                let plane: Vec<f32> = values.iter().skip(channel).step_by(channels).copied().collect();
-                let mut plane_codes = vec![T::default(); plane.len()];
-                serpentine::<T, 1>(&plane, width, fixed, weights, &mut plane_codes);
-                for (code, of_plane) in codes.iter_mut().skip(channel).step_by(channels).zip(plane_codes) {
-                    *code = of_plane;
-                }
-            }
-        }
+        _ => one_by_one(values, channels, codes, |values, codes| {
+            serpentine::<T, 1>(values, width, fixed, weights, codes);
+        }),
     }
 }
 

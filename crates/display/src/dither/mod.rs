@@ -4,18 +4,20 @@
 //! edges the eye sharpens to Mach bands. A dither shows the codes on either side of v(2ᵇ − 1) in such a proportion
 //! that their mean is right; the methods differ in where they put the error.
 //!
-//! - **Thresholds**: code = ⌊v(2ᵇ − 1) + t⌋ with 0 < t < 1 ([`Thresholds`]): `none` (t = ½, that is rounding), `random`
-//!   (another t for every pixel and channel), `ordered-2` and `ordered-4` (the book's tiles: Limb 1969; Jarvis,
-//!   Judice and Ninke 1976), `bayer-2` … `bayer-64` (Bayer 1973), `blue-noise` (void and cluster, Ulichney 1993).
-//! - **Error diffusion** ([`Weights`]): `floyd-steinberg` (1976: 7, 3, 5 and 1 sixteenths), `floyd-steinberg-book` (the three
-//!   weights which the book prints, erratum 58), `floyd-steinberg-serpentine` (every other row runs backwards).
+//! - **Thresholds**: code = ⌊v(2ᵇ − 1) + t⌋ with 0 < t < 1 ([`Thresholds`]): `none` (t = ½, that is rounding),
+//!   `random` (another t for every pixel and channel), `ordered-2` and `ordered-4` (the book's tiles: Limb 1969;
+//!   Jarvis, Judice and Ninke 1976), `bayer-2` … `bayer-64` (Bayer 1973), `blue-noise` (void and cluster, Ulichney
+//!   1993).
+//! - **Error diffusion** ([`Weights`]): `floyd-steinberg` (1976: 7, 3, 5 and 1 sixteenths), `floyd-steinberg-book`
+//!   (the three weights which the book prints, erratum 58), `floyd-steinberg-serpentine` (every other row runs
+//!   backwards).
 //! - **Dot diffusion** ([`ClassMatrix`], Knuth 1987): `dot-diffusion` and, with a cell of 4 × 4, `dot-diffusion-4`.
 //!
 //! Values are what the display's transfer function gives, because the dither must come last: after gamma and at the
-//! depth of the display. A value below 0, or one that is no number, counts as 0; a value above 1 as 1. Under thresholds
-//! and under error diffusion 0 is always code 0 and 1 always the highest code, whatever stands beside it; under dot
-//! diffusion a field of 0 or 1 stays clean, but an error may spill over its edge. Channels are dithered independently. The result
-//! depends neither on the number of threads nor on the machine.
+//! depth of the display. A value below 0, or one that is no number, counts as 0; a value above 1 as 1. Under
+//! thresholds and under error diffusion 0 is always code 0 and 1 always the highest code, whatever stands beside
+//! it; under dot diffusion a field of 0 or 1 stays clean, but an error may spill over its edge. Channels are
+//! dithered independently. The result depends neither on the number of threads nor on the machine.
 //!
 //! ```
 //! use illuminant_display::{Dither, Pixels, quantise};
@@ -159,8 +161,8 @@ impl Dither {
         }
     }
 
-    /// The same dither with one tile for all channels, unshifted: the book's way, and what keeps a grey picture grey.
-    /// Only tiles can be shifted; other dithers stay as they are.
+    /// The same dither with one tile for all channels, unshifted: the book's way, and what keeps a grey picture
+    /// grey. Only tiles can be shifted; other dithers stay as they are.
     #[must_use]
     pub fn with_channels_alike(self) -> Self {
         match self {
@@ -224,8 +226,8 @@ impl Code for u16 {
     }
 }
 
-/// The codes of an image: `values` hold `channels` values for a pixel and `width` pixels for a row, and the codes come
-/// in the same order, as bytes up to 8 bits and as 16-bit words above.
+/// The codes of an image: `values` hold `channels` values for a pixel and `width` pixels for a row, and the codes
+/// come in the same order, as bytes up to 8 bits and as 16-bit words above.
 ///
 /// # Errors
 /// The number of bits is not in 1 … 16, or the values make no whole rows.
@@ -251,7 +253,8 @@ pub fn quantise(
 /// [`quantise`] into a buffer of the caller's, of bytes (up to 8 bits) or 16-bit words.
 ///
 /// # Errors
-/// The number of bits is 0 or more than a code holds, the values make no whole rows, or the buffer is of another length.
+/// The number of bits is 0 or more than a code holds, the values make no whole rows, or the buffer is of another
+/// length.
 pub fn quantise_into<T: Code>(
     values: &[f32],
     width: usize,
@@ -300,6 +303,24 @@ pub(crate) fn check(
     Ok(())
 }
 
+/// Channels know nothing of each other, so each may be an image of its own: for numbers of channels that no loop
+/// was made for.
+fn one_by_one<T: Code>(
+    values: &[f32],
+    channels: usize,
+    codes: &mut [T],
+    quantise: impl Fn(&[f32], &mut [T]),
+) {
+    for channel in 0..channels {
+        let plane: Vec<f32> = values.iter().skip(channel).step_by(channels).copied().collect();
+        let mut of_plane = vec![T::default(); plane.len()];
+        quantise(&plane, &mut of_plane);
+        for (code, of_plane) in codes.iter_mut().skip(channel).step_by(channels).zip(of_plane) {
+            *code = of_plane;
+        }
+    }
+}
+
 /// A value in [0, 1]: what is no number counts as 0.
 #[inline(always)]
 pub(crate) fn unit(v: f32) -> f32 {
@@ -314,8 +335,8 @@ pub(crate) fn top(bits: u32) -> f32 {
     ((1u32 << bits) - 1) as f32
 }
 
-/// A whole number of at most 2²² as bits: adding 2²³ leaves it in the low bits of the mantissa, and takes one instruction
-/// where a checked conversion takes six.
+/// A whole number of at most 2²² as bits: adding 2²³ leaves it in the low bits of the mantissa, and takes one
+/// instruction where a checked conversion takes six.
 #[inline(always)]
 pub(crate) fn to_code<T: Code>(whole: f32) -> T {
     T::of((whole + 8_388_608.0).to_bits())

@@ -1,14 +1,15 @@
 //! Patterning: cells of pixels that show more levels than a pixel can (book 5.1.4, figure 5.11).
 //!
-//! A cell of n pixels with 2ᵇ codes each has L = n(2ᵇ − 1) + 1 sums, from all 0 to all at the highest code: 5 for 2 × 2 at one bit, 1021 at
-//! eight. The cell shows the level ⌊mv · L⌋ of the mean value mv, and the highest one for 1 (the book multiplies by a little less than
-//! L; for four pixels that is their sum times 5/4 less a little, where the book prints 1.5: erratum 57). Level k puts ⌊k/n⌋ into
-//! every pixel and one more into the first k mod n pixels of an order of growth; so a pixel that is on stays on at every
-//! higher level, and there are no false contours.
+//! A cell of n pixels with 2ᵇ codes each has L = n(2ᵇ − 1) + 1 sums, from all 0 to all at the highest code: 5 for 2
+//! × 2 at one bit, 1021 at eight. The cell shows the level ⌊mv · L⌋ of the mean value mv, and the highest one for 1
+//! (the book multiplies by a little less than L; for four pixels that is their sum times 5/4 less a little, where
+//! the book prints 1.5: erratum 57). Level k puts ⌊k/n⌋ into every pixel and one more into the first k mod n pixels
+//! of an order of growth; so a pixel that is on stays on at every higher level, and there are no false contours.
 //!
-//! The order starts at the middle of the cell and goes outwards; among pixels equally far out, it takes the one farthest from the one
-//! before. For 3 × 3 it is the usual one (Foley and Van Dam 1984), which shows no lines. A cell costs resolution: either every pixel
-//! becomes a cell ([`Patterning::enlarge`]), or a cell of the image shows its mean ([`Patterning::replace`]).
+//! The order starts at the middle of the cell and goes outwards; among pixels equally far out, it takes the one
+//! farthest from the one before. For 3 × 3 it is the usual one (Foley and Van Dam 1984), which shows no lines. A
+//! cell costs resolution: either every pixel becomes a cell ([`Patterning::enlarge`]), or a cell of the image shows
+//! its mean ([`Patterning::replace`]).
 
 use super::{Code, DitherError, check, unit};
 use crate::Pixels;
@@ -71,7 +72,8 @@ impl Patterning {
         self.turns.len() as u64 * ((1u64 << bits.min(32)) - 1) + 1
     }
 
-    /// An image in which each value has become a cell: `width` times as many pixels in a row, `height` times as many rows.
+    /// An image in which each value has become a cell: `width` times as many pixels in a row, `height` times as
+    /// many rows.
     ///
     /// # Errors
     /// The number of bits is not in 1 … 16, or the values make no whole rows, or the image would be too large.
@@ -120,8 +122,8 @@ impl Patterning {
         );
     }
 
-    /// An image of the same size, in which each cell shows the mean of its values. A cell that is cut by the right or lower edge
-    /// shows the mean of what is there with the part of the pattern that is there.
+    /// An image of the same size, in which each cell shows the mean of its values. A cell that is cut by the right
+    /// or lower edge shows the mean of what is there with the part of the pattern that is there.
     ///
     /// # Errors
     /// The number of bits is not in 1 … 16, or the values make no whole rows.
@@ -186,7 +188,8 @@ impl Patterning {
     }
 }
 
-/// From the middle outwards; among equals, the one farthest from the one before, and then the first in reading order.
+/// From the middle outwards; among equals, the one farthest from the one before, and then the first in reading
+/// order.
 fn growth(width: usize, height: usize) -> Vec<usize> {
     // Twice the coordinates, from the middle, are whole numbers.
     let from_middle = |i: usize| {

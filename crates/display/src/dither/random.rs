@@ -1,9 +1,9 @@
 //! Random dither (book 5.1.4): a threshold of its own for every pixel and channel.
 //!
-//! The threshold is a hash of seed, row, column and channel, not the next number of a stream; so a pixel has the same one whatever
-//! was computed before it, on any number of threads, in a crop that keeps its corner, and with other channels beside it.
-//! The hash is two rounds of multiplication and shift (constants: C. Wellons' search for low bias, 2018) with a key of the row
-//! before each; its upper 23 bits give t = (n + ½)/2²³.
+//! The threshold is a hash of seed, row, column and channel, not the next number of a stream; so a pixel has the
+//! same one whatever was computed before it, on any number of threads, in a crop that keeps its corner, and with
+//! other channels beside it. The hash is two rounds of multiplication and shift (constants: C. Wellons' search for
+//! low bias, 2018) with a key of the row before each; its upper 23 bits give t = (n + ½)/2²³.
 
 use super::thresholds::{rows_of_task, step};
 use super::{Code, top};

@@ -1,18 +1,18 @@
 //! Thresholds in a tile: ordered dither (book 5.1.4).
 //!
-//! code = ⌊v(2ᵇ − 1) + t(x, y)⌋ with t from a tile that is laid over the image again and again. A tile of n numbers which holds
-//! each of 1/2n, 3/2n … (2n − 1)/2n once is uniform: over a flat field, the mean of the codes is v(2ᵇ − 1) rounded to the nearest
-//! n-th (half a step up), so that its error is at most 1/2n.
+//! code = ⌊v(2ᵇ − 1) + t(x, y)⌋ with t from a tile that is laid over the image again and again. A tile of n numbers
+//! which holds each of 1/2n, 3/2n … (2n − 1)/2n once is uniform: over a flat field, the mean of the codes is v(2ᵇ −
+//! 1) rounded to the nearest n-th (half a step up), so that its error is at most 1/2n.
 //!
-//! The sum is not formed: in f32 it would lose the threshold at 16 bits. With v(2ᵇ − 1) = w + f, w whole, the code is w + 1 where
-//! f ≥ 1 − t, and f and 1 − t are exact.
+//! The sum is not formed: in f32 it would lose the threshold at 16 bits. With v(2ᵇ − 1) = w + f, w whole, the code
+//! is w + 1 where f ≥ 1 − t, and f and 1 − t are exact.
 //!
 //! Channels: the book adds the same tile to all. All channels then step at the same pixels, and the eye, which sees
 //! lightness in finer detail than colour, gets the sum of their errors. With the tile shifted for each channel the
-//! errors of the channels largely cancel in lightness and remain as a fine speckle of colour of one code: on a grey gradation at
-//! 8 bits, a Bayer tile leaves less than half of the variance of luminance. Hence the tiles of Bayer and the blue noise are shifted, and
-//! the two tiles of the book, which are the smaller ones of Bayer, are not. On a display of few codes, where colours of
-//! neighbouring codes differ much, or where grey must stay grey, take
+//! errors of the channels largely cancel in lightness and remain as a fine speckle of colour of one code: on a grey
+//! gradation at 8 bits, a Bayer tile leaves less than half of the variance of luminance. Hence the tiles of Bayer
+//! and the blue noise are shifted, and the two tiles of the book, which are the smaller ones of Bayer, are not. On
+//! a display of few codes, where colours of neighbouring codes differ much, or where grey must stay grey, take
 //! [`with_channels_alike`](crate::Dither::with_channels_alike).
 
 use super::{Code, DitherError, to_code, top, unit};
@@ -27,7 +27,8 @@ pub struct Thresholds {
     shifts: Vec<(usize, usize)>,
 }
 
-/// With these, the first four channels of a pixel get four neighbours of the tile: in Bayer's, one from each quarter of (0, 1).
+/// With these, the first four channels of a pixel get four neighbours of the tile: in Bayer's, one from each
+/// quarter of (0, 1).
 const NEIGHBOURS: [(usize, usize); 4] = [(0, 0), (1, 0), (0, 1), (1, 1)];
 
 impl Thresholds {
@@ -64,8 +65,8 @@ impl Thresholds {
         Self::odd(4, &[1, 17, 5, 21, 25, 9, 29, 13, 7, 23, 3, 19, 31, 15, 27, 11])
     }
 
-    /// Bayer's tile of `size` × `size` (1973): each step doubles the tile, D₂ₙ = [4Dₙ, 4Dₙ + 2; 4Dₙ + 3, 4Dₙ + 1]. Channels are
-    /// shifted by a pixel to the right, down, and both.
+    /// Bayer's tile of `size` × `size` (1973): each step doubles the tile, D₂ₙ = [4Dₙ, 4Dₙ + 2; 4Dₙ + 3, 4Dₙ + 1].
+    /// Channels are shifted by a pixel to the right, down, and both.
     ///
     /// # Errors
     /// The size is not 2, 4, 8, 16, 32 or 64.
@@ -172,11 +173,14 @@ pub(super) fn quantise<T: Code>(
 ) {
     let row = width * channels;
     let top = top(bits);
-    // A period is repeated until it is long enough for the loop over it to be worth starting, and no longer than the row.
-    let complements: Vec<Vec<f32>> = (0..tile.height)
+    // A period is repeated until it is long enough for the loop over it to be worth starting, and no longer than
+    // the row.
+    let complements: Vec<Vec<f32>> = (0..tile.height.min(values.len() / row))
         .map(|y| {
             let period: Vec<f32> = tile.row(y, channels).iter().map(|t| 1.0 - t).collect();
-            period.repeat((1024 / period.len()).clamp(1, row.div_ceil(period.len())))
+            let mut run = period.repeat((1024 / period.len()).clamp(1, row.div_ceil(period.len())));
+            run.truncate(row);
+            run
         })
         .collect();
     let rows = rows_of_task(row);
