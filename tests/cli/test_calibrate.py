@@ -2,6 +2,8 @@
 
 import io
 import json
+import re
+import shlex
 import sys
 
 import numpy as np
@@ -146,3 +148,28 @@ def test_a_mistake_is_one_sentence(folder, capsys, arguments, words):
     assert run(["calibrate", *arguments]) == 2
     captured = capsys.readouterr()
     assert words in captured.err and captured.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(("page", "least"), [("calibration.md", 10), ("test-patterns.md", 13)])
+def test_what_the_pages_ask_the_reader_to_type_runs(repository, folder, page, least):
+    text = (repository / "docs" / page).read_text(encoding="utf-8")
+    lines = [
+        line
+        for block in re.findall(r"^```sh runnable\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+        for line in block.splitlines()
+    ]
+    assert len(lines) >= least
+    for line in lines:
+        program, *words = shlex.split(line, comments=True)
+        # Pictures of the default size take longer than they tell.
+        small = ["--size", "160x120"] if words[0] == "pattern" and words[1] != "list" else []
+        assert program == "illuminant" and run([*words, *small]) == 0, line
+
+
+def test_the_program_of_the_page_prints_what_the_page_says(repository, capsys):
+    text = (repository / "docs" / "calibration.md").read_text(encoding="utf-8")
+    program, wanted = re.search(
+        r"^```python runnable\n(.*?)^```\n\n```text output\n(.*?)^```$", text, re.MULTILINE | re.DOTALL
+    ).groups()
+    exec(compile(program, "calibration.md", "exec"), {})
+    assert capsys.readouterr().out == wanted
