@@ -27,7 +27,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from illuminant import color, output, rgb_system
-from illuminant.core import core
 from illuminant.errors import MachineError, UsageError
 from illuminant.image import UNIT, Image, check_output
 

@@ -183,8 +183,8 @@ class Image:
         Args:
             path: ends with `.exr` or `.png`.
             look: for PNG, the display, tone operator, gamut method, dither and bits; default sRGB with 8 bits.
-            exposure: for PNG, the factor from Y to the display's 0 to 1; default that of the look, else the image's own,
-                else `auto_exposure()`. An EXR is never scaled: it only notes the exposure.
+            exposure: for PNG, the factor from Y to the display's 0 to 1; default that of the look, else the image's
+                own, else `auto_exposure()`. An EXR is never scaled: it only notes the exposure.
             rgb: name of the RGB system of an EXR; default XYZ.
             half: 16-bit floats, for EXR; their largest is 65,504.
 

@@ -108,10 +108,11 @@ def _png_facts(path: Path) -> dict[str, Any]:
     from illuminant import png
 
     header = png.read_header(path)
+    meant = header.display.name if header.display else "which does not say for which display"
     facts: dict[str, Any] = {
         "file": str(path),
         "size": [header.width, header.height],
-        "format": f"PNG, {header.bits} bits a channel, {header.display.name if header.display else 'which does not say for which display'}",
+        "format": f"PNG, {header.bits} bits a channel, {meant}",
     }
     if header.text.get("Exposure"):
         exposure = float(header.text["Exposure"])

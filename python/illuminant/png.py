@@ -10,6 +10,7 @@ Reference: W3C, Portable Network Graphics (PNG) Specification, third edition, 20
 from __future__ import annotations
 
 import json
+import os
 import struct
 import zlib
 from collections.abc import Iterator
@@ -101,10 +102,11 @@ def encode(codes: Codes, bits: int, display: Display, text: dict[str, str]) -> b
             f"A PNG cannot state the primaries of {display.name}: choose another display, or save as EXR."
         )
     depth = 8 if bits <= 8 else 16
-    spread = codes
+    spread: Codes = codes
     if bits != depth:
         top, largest = (1 << bits) - 1, (1 << depth) - 1
-        spread = ((codes.astype(np.uint32) * largest + top // 2) // top).astype(codes.dtype)
+        wide = (codes.astype(np.uint32) * largest + top // 2) // top
+        spread = wide.astype(np.uint8) if depth == 8 else wide.astype(np.uint16)
     srgb = _same(display, displays.named("sRGB"))
     cicp = next((code for name, code in _CICP.items() if _same(display, displays.named(name))), None)
     stated = srgb or cicp is not None
@@ -167,7 +169,7 @@ def _text(kind: bytes, data: bytes) -> tuple[str, str]:
     return name, (zlib.decompress(body) if compressed else body).decode("utf-8")
 
 
-def read_header(path: str | Path) -> Header:
+def read_header(path: str | os.PathLike[str]) -> Header:
     """Read what a PNG file says of itself.
 
     Raises:
@@ -205,7 +207,7 @@ def _stated(text: dict[str, str], found: dict[bytes, bytes]) -> Display | None:
         except (DataError, ValueError, RecursionError, AttributeError, TypeError):
             pass  # another program's text of that name; the chunks say it too
     if b"cICP" in found:
-        code = tuple(found[b"cICP"][:2])
+        code = (found[b"cICP"][0], found[b"cICP"][1])
         name = next((name for name, known in _CICP.items() if known[:2] == code), _OTHER_CICP.get(code))
         if name is not None:
             return displays.named(name)
@@ -240,7 +242,7 @@ def _inflated(data: bytes) -> bytes:
     return content
 
 
-def decode(path: str | Path) -> tuple[Codes, int, Header]:
+def decode(path: str | os.PathLike[str]) -> tuple[Codes, int, Header]:
     """Read the code values of a PNG.
 
     Returns:

@@ -4,6 +4,7 @@
 //! Work goes row by row in blocks of pixels that stay in the first cache: the matrix over all, the gamut's method over
 //! those that lie outside, a table for the transfer function, and the thresholds of an ordered dither in the same pass.
 
+use crate::dither::{self, Code, Dither, DitherError, quantise_into};
 use crate::{Display, EncodingTable, Gamut, GamutMap, Tone};
 use illuminant_color::Triple;
 use rayon::prelude::*;
@@ -118,7 +119,7 @@ impl Development {
     ///
     /// `emit` takes the code values of a block, 0 to 1, channel by channel, with the row and the first column, and writes
     /// the block's part of the output.
-    pub(crate) fn rows<T: Sample, C: Send>(
+    fn rows<T: Sample, C: Send>(
         &self,
         xyz: &[T],
         width: usize,
@@ -147,44 +148,95 @@ impl Development {
     /// The code values of up to [`BLOCK`] pixels.
     fn block<T: Sample>(&self, xyz: &[T], whole: f64, block: &mut Block) -> Met {
         let count = xyz.len() / 3;
-        let matrix =
-            self.display.system().from_xyz_rows().map(|row| row.map(|v| (v * self.scale * whole) as f32));
-        let shift = (self.shift * whole) as f32;
-        let mut outside = [false; BLOCK];
-        let [red, green, blue] = block;
-        for (i, pixel) in xyz.chunks_exact(3).enumerate() {
-            let [x, y, z] = [pixel[0].single(), pixel[1].single(), pixel[2].single()];
-            let channel = |row: [f32; 3]| row[0].mul_add(x, row[1].mul_add(y, row[2].mul_add(z, shift)));
-            (red[i], green[i], blue[i]) = (channel(matrix[0]), channel(matrix[1]), channel(matrix[2]));
-            let low = red[i].min(green[i]).min(blue[i]);
-            let high = red[i].max(green[i]).max(blue[i]);
-            // A NaN is lost in min and max, not in a sum.
-            let finite = (red[i] + green[i] + blue[i]).is_finite();
-            outside[i] = !(low >= -SLACK && high <= 1.0 + SLACK && finite);
-        }
-        let mut met = Met::default();
-        let all = self.tone != Tone::None || self.gamut.moves_all();
+        self.correct(xyz, whole, block);
+        let every = self.tone != Tone::None || self.gamut.moves_all();
         let ootf = self.display.ootf_gamma().is_some();
-        if all || ootf || outside[..count].contains(&true) {
-            for i in 0..count {
-                if !(all || ootf || outside[i]) {
-                    continue;
-                }
-                let pixel = [xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]].map(Sample::double);
-                let mut rgb = self.light(pixel).map(|v| v * whole);
-                met = met.with(classified(rgb));
-                if all || outside[i] {
-                    rgb = self.gamut.map(rgb);
-                }
-                if ootf {
-                    rgb = self.display.before_ootf(rgb.map(|v| v.clamp(0.0, 1.0)));
-                }
-                (red[i], green[i], blue[i]) = (rgb[0] as f32, rgb[1] as f32, rgb[2] as f32);
+        let method = self.gamut.gamut();
+        let met = if every
+            || ootf
+            || !matches!(method, Gamut::Clamp | Gamut::Scale | Gamut::ScaleImage | Gamut::Cook)
+        {
+            self.one_by_one(xyz, whole, block)
+        } else {
+            let met = classified(block, count);
+            if met != Met::default() {
+                self.together(block);
             }
-        }
+            met
+        };
         for (channel, table) in block.iter_mut().zip(&self.tables) {
             for value in &mut channel[..count] {
                 *value = table.encode(*value);
+            }
+        }
+        met
+    }
+
+    /// Exposure and colour correction: the light of each channel, as far as the display could send any.
+    #[inline(always)]
+    fn correct<T: Sample>(&self, xyz: &[T], whole: f64, [red, green, blue]: &mut Block) {
+        let rows = self.display.system().from_xyz_rows();
+        let [r, g, b] = rows.map(|row| row.map(|v| (v * self.scale * whole) as f32));
+        let shift = (self.shift * whole) as f32;
+        let channel = |row: [f32; 3], x: f32, y: f32, z: f32| {
+            row[0].mul_add(x, row[1].mul_add(y, row[2].mul_add(z, shift)))
+        };
+        let channels = red.iter_mut().zip(green).zip(blue);
+        for (pixel, ((red, green), blue)) in xyz.chunks_exact(3).zip(channels) {
+            let [x, y, z] = [pixel[0].single(), pixel[1].single(), pixel[2].single()];
+            *red = channel(r, x, y, z);
+            *green = channel(g, x, y, z);
+            *blue = channel(b, x, y, z);
+        }
+    }
+
+    /// The methods of which no choice depends on the pixel, over a whole block at once and in f32; see [`GamutMap`].
+    fn together(&self, [red, green, blue]: &mut Block) {
+        let add_white = self.gamut.gamut() == Gamut::Cook;
+        let divide = add_white || self.gamut.gamut() == Gamut::Scale;
+        let [wr, wg, wb] = self.display.system().to_xyz_rows()[1].map(|v| v as f32);
+        for ((red, green), blue) in red.iter_mut().zip(green).zip(blue) {
+            // What is no number is black.
+            let finite = (*red + *green + *blue).abs() < f32::INFINITY;
+            let mut rgb = [*red, *green, *blue].map(|v| if finite { v } else { 0.0 });
+            if add_white {
+                let axis = wr * rgb[0] + wg * rgb[1] + wb * rgb[2];
+                let low = rgb[0].min(rgb[1]).min(rgb[2]).min(0.0);
+                let part = if low < 0.0 { axis / (axis - low) } else { 1.0 };
+                let part = if axis > 0.0 { part } else { 0.0 };
+                let axis = axis.max(0.0);
+                let whiter = rgb.map(|v| (v - axis).mul_add(part, axis));
+                rgb = if low < 0.0 { whiter } else { rgb };
+            }
+            if divide {
+                let high = rgb[0].max(rgb[1]).max(rgb[2]).max(1.0);
+                rgb = rgb.map(|v| v / high);
+            }
+            [*red, *green, *blue] = rgb;
+        }
+    }
+
+    /// Tone, gamut and OOTF of the pixels that need any, one by one and in f64.
+    fn one_by_one<T: Sample>(&self, xyz: &[T], whole: f64, block: &mut Block) -> Met {
+        let every = self.tone != Tone::None || self.gamut.moves_all();
+        let ootf = self.display.ootf_gamma().is_some();
+        let mut met = Met::default();
+        for (i, pixel) in xyz.chunks_exact(3).enumerate() {
+            let single = [block[0][i], block[1][i], block[2][i]];
+            let inside = single.iter().all(|v| (-SLACK..=1.0 + SLACK).contains(v));
+            if inside && !every && !ootf {
+                continue;
+            }
+            let mut rgb = self.light([pixel[0], pixel[1], pixel[2]].map(Sample::double)).map(|v| v * whole);
+            met = met.with(kind(rgb.map(|v| v as f32)));
+            if every || !inside {
+                rgb = self.gamut.map(rgb);
+            }
+            if ootf {
+                rgb = self.display.before_ootf(rgb.map(|v| v.clamp(0.0, 1.0)));
+            }
+            for (channel, v) in block.iter_mut().zip(rgb) {
+                channel[i] = v as f32;
             }
         }
         met
@@ -203,17 +255,24 @@ impl Development {
     }
 }
 
-fn classified(rgb: Triple) -> Met {
-    let slack = f64::from(SLACK);
-    let mut met = Met::default();
-    if !rgb.iter().all(|v| v.is_finite()) {
-        met.not_finite = 1;
-    } else if rgb.iter().any(|&v| v < -slack) {
-        met.negative = 1;
-    } else if rgb.iter().any(|&v| v > 1.0 + slack) {
-        met.above = 1;
+/// Where a colour lies: outside by a negative channel, too bright, or no number.
+#[inline(always)]
+fn kind(rgb: [f32; 3]) -> Met {
+    let finite = (rgb[0] + rgb[1] + rgb[2]).abs() < f32::INFINITY;
+    let negative = finite && rgb[0].min(rgb[1]).min(rgb[2]) < -SLACK;
+    let above = finite && !negative && rgb[0].max(rgb[1]).max(rgb[2]) > 1.0 + SLACK;
+    Met { negative: negative.into(), above: above.into(), not_finite: (!finite).into() }
+}
+
+fn classified(block: &Block, count: usize) -> Met {
+    let [mut negative, mut above, mut not_finite] = [0u32; 3];
+    for ((&red, &green), &blue) in block[0][..count].iter().zip(&block[1][..count]).zip(&block[2][..count]) {
+        let met = kind([red, green, blue]);
+        negative += met.negative as u32;
+        above += met.above as u32;
+        not_finite += met.not_finite as u32;
     }
-    met
+    Met { negative: negative as usize, above: above as usize, not_finite: not_finite as usize }
 }
 
 /// Develops an image of XYZ into code values from 0 to 1, three a pixel.
@@ -239,6 +298,47 @@ pub fn develop<T: Sample>(xyz: &[T], width: usize, development: &Development, co
             pixel.copy_from_slice(&[block[0][i], block[1][i], block[2][i]]);
         }
     })
+}
+
+/// Develops an image of XYZ into codes of `bits` bits, three a pixel: [`develop`] and [`crate::quantise`] in one.
+///
+/// A dither of thresholds is added in the same pass; for the others the code values of the whole image are kept.
+///
+/// # Errors
+/// [`DitherError`]: the number of bits, the shape of the image or the length of the buffer is not possible.
+pub fn develop_codes<T: Sample, C: Code>(
+    xyz: &[T],
+    width: usize,
+    development: &Development,
+    bits: u32,
+    dither: &Dither,
+    codes: &mut [C],
+) -> Result<Met, DitherError> {
+    dither::check(xyz.len(), width, 3, bits, C::BITS)?;
+    if codes.len() != xyz.len() {
+        return Err(DitherError::Buffer { found: codes.len(), expected: xyz.len() });
+    }
+    let Some(tile) = dither.thresholds() else {
+        let mut values = vec![0.0; xyz.len()];
+        let met = develop(xyz, width, development, &mut values);
+        quantise_into(&values, width, 3, bits, dither, codes)?;
+        return Ok(met);
+    };
+    // A row of complements is long enough for a block to begin anywhere in the tile.
+    let rows: Vec<Vec<f32>> = (0..tile.height())
+        .map(|y| {
+            let period = tile.row(y, 3);
+            period.iter().map(|t| 1.0 - t).cycle().take(3 * BLOCK + period.len()).collect()
+        })
+        .collect();
+    Ok(development.rows(xyz, width, codes, |y, x, block, output| {
+        let complements = &rows[y % rows.len()][3 * (x % tile.width())..];
+        let mut values = [0.0; 3 * BLOCK];
+        for (i, pixel) in values.chunks_exact_mut(3).enumerate() {
+            pixel.copy_from_slice(&[block[0][i], block[1][i], block[2][i]]);
+        }
+        dither::thresholds::step_all(&values[..output.len()], bits, complements, output);
+    }))
 }
 
 #[cfg(test)]
@@ -278,6 +378,43 @@ mod tests {
             develop(&single, 301, &development, &mut b);
             for (i, (a, b)) in a.iter().zip(&b).enumerate() {
                 assert!((a - b).abs() < 2e-4, "{gamut:?}: {i}: {a} and {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_block_at_once_is_what_its_pixels_are_one_by_one() {
+        let image: Vec<f64> = (0..3 * 500).map(|i| f64::from(i * 61 % 997) / 600.0).collect();
+        for gamut in [Gamut::Clamp, Gamut::Scale, Gamut::Cook] {
+            let development = development(gamut, Tone::None);
+            let mut codes = vec![0.0; image.len()];
+            develop(&image, 125, &development, &mut codes);
+            for (pixel, codes) in image.chunks_exact(3).zip(codes.chunks_exact(3)) {
+                let light = development.light([pixel[0], pixel[1], pixel[2]]);
+                let wanted = development.display.encode(development.gamut.map(light));
+                for (a, b) in codes.iter().zip(wanted) {
+                    assert!(
+                        (f64::from(*a) - b).abs() < 2e-5,
+                        "{gamut:?}: {light:?}: {codes:?} and {wanted:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn dither_in_the_same_pass_is_dither_after_it() {
+        let image: Vec<f32> = (0..3 * 300 * 7).map(|i| (i * 61 % 997) as f32 / 700.0).collect();
+        let development = development(Gamut::Cook, Tone::None);
+        let mut values = vec![0.0; image.len()];
+        let met = develop(&image, 300, &development, &mut values);
+        for name in Dither::names() {
+            let dither = Dither::named(name).unwrap();
+            for bits in [1, 5, 8] {
+                let (mut one, mut two) = (vec![0u8; image.len()], vec![0u8; image.len()]);
+                assert_eq!(develop_codes(&image, 300, &development, bits, &dither, &mut one), Ok(met));
+                quantise_into(&values, 300, 3, bits, &dither, &mut two).unwrap();
+                assert!(one == two, "{name} at {bits} bits");
             }
         }
     }

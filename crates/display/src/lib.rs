@@ -6,14 +6,18 @@
 
 mod develop;
 mod display;
+mod dither;
 mod encoding_table;
 mod gamut;
 mod png;
 mod response;
 mod tone;
 
-pub use develop::{Development, Met, Pixels, Sample, develop};
+pub use develop::{Development, Met, Pixels, Sample, develop, develop_codes};
 pub use display::{Display, DisplayError};
+pub use dither::{
+    ClassMatrix, Code, Dither, DitherError, Patterning, Thresholds, Weights, quantise, quantise_into,
+};
 pub use encoding_table::EncodingTable;
 pub use gamut::{Gamut, GamutMap};
 pub use png::{PngError, PngTags, encode_png};

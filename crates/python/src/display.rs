@@ -3,8 +3,8 @@
 use crate::arrays::{check_last_axis, numbers, readable};
 use illuminant_color::{RgbSystem, Transfer, Triple};
 use illuminant_display::{
-    Development, Display, Gamut, GamutMap, Pixels, PngTags, Response, Sample, Tone, develop as develop_image,
-    encode_png as encode,
+    Code, Development, Display, Dither, Gamut, GamutMap, Met, Pixels, PngTags, Response, Sample, Tone,
+    develop as develop_image, develop_codes, encode_png as encode,
 };
 use numpy::{Element, PyArray1, PyArray3, PyArrayMethods, PyUntypedArrayMethods, ToPyArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -144,6 +144,68 @@ impl PyDisplay {
             developed::<f64>(py, xyz, &development)
         }
     }
+
+    /// Codes of `bits` bits, and what was met.
+    #[pyo3(signature = (xyz, *, exposure, reference, tone, gamut, bits, dither, seed))]
+    fn show<'py>(
+        &self,
+        py: Python<'py>,
+        xyz: &Bound<'py, PyAny>,
+        exposure: f64,
+        reference: f64,
+        tone: &str,
+        gamut: &str,
+        bits: u32,
+        dither: &str,
+        seed: u64,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
+        let development =
+            Development::new(self.0.clone(), exposure, reference, self::tone(tone)?, self::gamut(gamut)?);
+        let dither = Dither::named(dither).map_err(|e| PyValueError::new_err(e.to_string()))?.with_seed(seed);
+        let single = xyz.cast::<numpy::PyArrayDyn<f32>>().is_ok();
+        match (single, bits <= 8) {
+            (true, true) => shown::<f32, u8>(py, xyz, &development, bits, &dither),
+            (true, false) => shown::<f32, u16>(py, xyz, &development, bits, &dither),
+            (false, true) => shown::<f64, u8>(py, xyz, &development, bits, &dither),
+            (false, false) => shown::<f64, u16>(py, xyz, &development, bits, &dither),
+        }
+    }
+}
+
+fn shown<'py, T: Sample + Element, C: Code + Element>(
+    py: Python<'py>,
+    xyz: &Bound<'py, PyAny>,
+    development: &Development,
+    bits: u32,
+    dither: &Dither,
+) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
+    let array = readable::<T>(xyz)?;
+    let (rows, columns) = size(array.shape())?;
+    let values = numbers(&array)?;
+    let codes = PyArray3::<C>::zeros(py, [rows, columns, 3], false);
+    let met = {
+        let mut writable = codes.readwrite();
+        let codes = writable.as_slice_mut().map_err(|e| PyValueError::new_err(e.to_string()))?;
+        py.detach(|| develop_codes(values, columns, development, bits, dither, codes))
+            .map_err(|e| PyValueError::new_err(e.to_string()))?
+    };
+    Ok((codes.into_any(), told(py, met)?))
+}
+
+/// Height and width of an image.
+fn size(shape: &[usize]) -> PyResult<(usize, usize)> {
+    match *shape {
+        [rows, columns, 3] => Ok((rows, columns)),
+        _ => Err(PyValueError::new_err(format!("an image is an array (height, width, 3), not {shape:?}"))),
+    }
+}
+
+fn told(py: Python<'_>, met: Met) -> PyResult<Bound<'_, PyDict>> {
+    let told = PyDict::new(py);
+    told.set_item("negative", met.negative)?;
+    told.set_item("above", met.above)?;
+    told.set_item("not_finite", met.not_finite)?;
+    Ok(told)
 }
 
 fn developed<'py, T: Sample + Element>(
@@ -152,20 +214,11 @@ fn developed<'py, T: Sample + Element>(
     development: &Development,
 ) -> PyResult<(Bound<'py, PyArray3<f32>>, Bound<'py, PyDict>)> {
     let array = readable::<T>(xyz)?;
-    let &[rows, columns, 3] = array.shape() else {
-        return Err(PyValueError::new_err(format!(
-            "an image is an array (height, width, 3), not {:?}",
-            array.shape()
-        )));
-    };
+    let (rows, columns) = size(array.shape())?;
     let values = numbers(&array)?;
     let mut codes = vec![0.0f32; values.len()];
     let met = py.detach(|| develop_image(values, columns, development, &mut codes));
-    let told = PyDict::new(py);
-    told.set_item("negative", met.negative)?;
-    told.set_item("above", met.above)?;
-    told.set_item("not_finite", met.not_finite)?;
-    Ok((PyArray1::from_vec(py, codes).reshape([rows, columns, 3])?, told))
+    Ok((PyArray1::from_vec(py, codes).reshape([rows, columns, 3])?, told(py, met)?))
 }
 
 #[pyfunction]

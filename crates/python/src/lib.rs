@@ -7,6 +7,7 @@ mod arrays;
 mod color;
 mod colorimetry;
 mod display;
+mod icc;
 mod optics;
 mod radiosity;
 mod sampling;
@@ -27,6 +28,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     color::register(m)?;
     colorimetry::register(m)?;
     display::register(m)?;
+    icc::register(m)?;
     optics::register(m)?;
     sampling::register(m)?;
     scene::register(m)?;

@@ -24,12 +24,14 @@ from illuminant.cli import (
     compare,
     diff,
     display,
+    gamma,
     info,
     new,
     pattern,
     radiosity,
     render,
     spectra,
+    video,
 )
 from illuminant.cli.report import sentence
 
@@ -57,10 +59,12 @@ app.command("display", short_help="Show an image on a display.")(display.display
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("audit", short_help="Test the physics of a material.")(audit.audit)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
+app.add_typer(gamma.app, name="gamma", short_help="Tables, fits and studies of a monitor's gamma.")
 app.command("pattern", short_help="Draw a test pattern for a display.")(pattern.pattern)
 app.add_typer(calibrate.app, name="calibrate", short_help="Adjust, measure and describe a display.")
 app.add_typer(radiosity.app, name="radiosity", short_help="Solve for light between surfaces, relight.")
 app.add_typer(spectra.app, name="spectra", short_help="List, show, plot, convert measured spectra.")
+app.add_typer(video.app, name="video", short_help="Send pictures through NTSC, and check them.")
 
 
 def _version(wanted: bool) -> None:

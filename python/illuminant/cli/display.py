@@ -110,8 +110,8 @@ def display(
         note(f"White is shown as 0.8; --exposure {shown.exposure:g} repeats it.")
     if shown.outside >= 0.0005:
         note(
-            f"{100 * shown.negative:.1f} % of the pixels have a chromaticity outside the gamut, {100 * shown.above:.1f} % are "
-            f"too bright: moved by {look.gamut}."
+            f"{100 * shown.negative:.1f} % of the pixels have a chromaticity outside the gamut, "
+            f"{100 * shown.above:.1f} % are too bright: moved by {look.gamut}."
         )
     if shown.not_finite:
         note(f"{shown.not_finite:,} pixels are no numbers, and black.")

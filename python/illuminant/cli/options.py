@@ -75,7 +75,7 @@ GamutName = Annotated[
         "--gamut",
         metavar="NAME",
         help="What becomes of colours that the display cannot show: clamp, scale, constant-intensity, "
-        "constant-luminance, cook, oklab, oklab-adaptive, cam16, soft, scale-image (oklab-adaptive).",
+        "constant-luminance, cook, oklab, oklab-adaptive, cam16, soft, scale-image (cook).",
         show_default=False,
     ),
 ]

@@ -17,8 +17,8 @@ picture when code values are chosen that give the same XYZ: `second.encode(secon
 | `NTSC 1953 D65` | FCC 1953, D65 | γ = 2.2 | 103 |
 | `book NTSC` | FCC 1953, D6500 (book 5.1.1) | γ = 2.2 | 103 |
 
-The RGB systems of `illuminant.color` that are not in this table (`ACES AP1`, `XYZ`, `NTSC 1953`, ...) are displays too, with
-their own transfer function and a white of 100 cd/m².
+The RGB systems of `illuminant.color` that are not in this table (`ACES AP1`, `XYZ`, `NTSC 1953`, ...) are displays
+too, with their own transfer function and a white of 100 cd/m².
 
 A description is a TOML file:
 
@@ -29,8 +29,8 @@ A description is a TOML file:
     peak = 118.0                  # cd/m²
     black = 0.21                  # cd/m²
 
-A response is `sRGB`, `Rec.709`, `linear`, `gamma γ`, `BT.1886`, `PQ`, `HLG`, `gain-offset-gamma G O γ`, or a table. An ICC
-profile of a monitor (`.icc`, `.icm`) is read as well.
+A response is `sRGB`, `Rec.709`, `linear`, `gamma γ`, `BT.1886`, `PQ`, `HLG`, `gain-offset-gamma G O γ`, or a table.
+An ICC profile of a monitor (`.icc`, `.icm`) is read as well.
 
 References: IEC 61966-2-1:1999; ITU-R BT.709-6, BT.1886-0, BT.2020-2, BT.2100-3, BT.2408-7; SMPTE RP 145:2004; Adobe RGB
 (1998) Color Image Encoding, 2005.
@@ -91,7 +91,7 @@ class Display:
         [76.04, 80.0, 87.12]
         >>> p3 = displays.named("Display P3")
         >>> p3.encode(p3.from_xyz(srgb.to_xyz([1.0, 0.0, 0.0]))).round(3).tolist()
-        [0.918, 0.2, 0.139]
+        [0.917, 0.2, 0.139]
     """
 
     name: str
@@ -111,8 +111,8 @@ class Display:
             raise UsageError(f"Display {self.name!r} has a number that is not finite.")
         if self.reference is not None and not 0 < self.reference <= self.peak:
             raise UsageError(
-                f"Display {self.name!r} shows diffuse white at {self.reference:g} cd/m²: expected above 0, and not above "
-                f"its peak of {self.peak:g}."
+                f"Display {self.name!r} shows diffuse white at {self.reference:g} cd/m²: expected above 0, and not "
+                f"above its peak of {self.peak:g}."
             )
         _ = self._core
 
@@ -135,7 +135,7 @@ class Display:
         """The response of each channel."""
         one = self.response
         if isinstance(one, str) or (one and isinstance(one[0], (int, float))):
-            return (one, one, one)  # type: ignore[return-value]
+            return (one, one, one)
         if len(one) != 3:
             raise UsageError(f"Display {self.name!r} has {len(one)} responses: expected one, or three.")
         return one  # type: ignore[return-value]
@@ -250,7 +250,8 @@ def named(name: str | os.PathLike[str] | Display) -> Display:
     """A display by its name, whatever its case, or by a file that describes it.
 
     Args:
-        name: one of `names()`, or a file whose name ends with `.toml`, `.icc` or `.icm`; a display is returned as it is.
+        name: one of `names()`, or a file whose name ends with `.toml`, `.icc` or `.icm`; a display is returned as it
+            is.
 
     Raises:
         UsageError: there is no display of that name; the sentence lists those there are.
@@ -275,9 +276,9 @@ def named(name: str | os.PathLike[str] | Display) -> Display:
         raise UsageError(
             f"There is no display {wanted!r}: known are {', '.join(names())}; or name a file .toml or .icc."
         )
-    about = rgb_system.named(wanted)
-    primaries = tuple(tuple(pair) for pair in about["primaries"])
-    return Display(str(about["name"]), primaries, tuple(about["white"]), str(about["transfer"]))  # type: ignore[arg-type]
+    system = rgb_system.named(wanted)
+    red, green, blue = (_pair(pair) for pair in system["primaries"])
+    return Display(str(system["name"]), (red, green, blue), _pair(system["white"]), str(system["transfer"]))
 
 
 @functools.cache
@@ -330,7 +331,8 @@ def described(found: dict[str, Any], source: str) -> Display:
         DataError: a key is missing, unknown, or not what it should be.
 
     Example:
-        >>> described({"name": "a", "primaries": [[0.64, 0.33], [0.3, 0.6], [0.15, 0.06]], "white": [0.31, 0.33]}, "here").peak
+        >>> about = {"name": "a", "primaries": [[0.64, 0.33], [0.3, 0.6], [0.15, 0.06]], "white": [0.31, 0.33]}
+        >>> described(about, "here").peak
         100.0
     """
     unknown = [key for key in found if key not in _KEYS]
@@ -340,13 +342,11 @@ def described(found: dict[str, Any], source: str) -> Display:
     if missing:
         raise DataError(f"{source} describes no display: {missing[0]!r} is missing.")
     try:
-        primaries = tuple(_pair(pair) for pair in found["primaries"])
-        if len(primaries) != 3:
-            raise TypeError
+        red, green, blue = (_pair(pair) for pair in found["primaries"])
         numbers = {key: float(found[key]) for key in ("peak", "black", "reference") if key in found}
         display = Display(
             str(found["name"]),
-            primaries,  # type: ignore[arg-type]
+            (red, green, blue),
             _pair(found["white"]),
             _response(found.get("response", "sRGB")),
             **numbers,

@@ -1,7 +1,7 @@
 """Dither: fewer codes than the eye can count, without steps (book 5.1.4, figure 5.12).
 
-The methods and their sources are told in the core (`crates/display/src/dither`). A dither comes last, after the transfer
-function and at the depth of the display.
+The formulas are in the core (`crates/display/src/dither`). A dither comes last, after the transfer function and at
+the depth of the display.
 
 | name | where the error goes | source |
 | --- | --- | --- |
@@ -58,7 +58,8 @@ def quantise(values: ArrayLike, bits: int = 8, name: str = "none", seed: int = 0
     """Codes of values from 0 to 1.
 
     Args:
-        values: (h, w, c) with c from 1 to 4, float32 or float64; values outside 0 to 1 are taken to the nearer end, NaN to 0.
+        values: (h, w, c) with c from 1 to 4, float32 or float64; values outside 0 to 1 are taken to the nearer end,
+            NaN to 0.
         bits: 1 to 16.
         name: one of `names()`.
         seed: of `random`.

@@ -1,8 +1,8 @@
 """Bringing colours that a display cannot show into its gamut (book 5.1.3 and III.9).
 
-A colour lies outside because a channel is below 0 (its chromaticity is outside the triangle of the primaries) or above 1
-(it is too bright). The methods, what each keeps and where each comes from, are listed by `methods()`; their formulas
-are in the core (`crates/display/src/gamut.rs`). `compare` in `illuminant.display.gamut_study` measures them.
+A colour lies outside because a channel is below 0 (its chromaticity is outside the triangle of the primaries) or
+above 1 (it is too bright). The formulas are in the core (`crates/display/src/gamut.rs`);
+`illuminant.display.gamut_study` measures the methods.
 
 | name | what it keeps | source |
 | --- | --- | --- |
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 __all__ = ["DEFAULT", "bring_inside", "classify", "methods"]
 
-DEFAULT = "oklab-adaptive"
+DEFAULT = "cook"
 """The method that is used when none is named; docs/display.md has the figures that chose it."""
 
 

@@ -143,8 +143,6 @@ def show(xyz: ArrayLike, look: Look | None = None, text: dict[str, str] | None =
     """
     import numpy as np
 
-    from illuminant.display import dither
-
     chosen = look or Look()
     image = np.asarray(xyz)
     if image.dtype != np.float32:
@@ -153,20 +151,20 @@ def show(xyz: ArrayLike, look: Look | None = None, text: dict[str, str] | None =
         raise UsageError(f"An image is an array of shape (height, width, 3), not {image.shape}.")
     exposure = 1.0 if chosen.exposure is None else chosen.exposure
     display = chosen.target
-    native = display
+    steps: dict[str, Any] = {
+        "exposure": exposure,
+        "reference": display.shown_white,
+        "tone": chosen.tone.casefold(),
+        "gamut": chosen.gamut.casefold(),
+    }
+    image = np.ascontiguousarray(image)
     if chosen.pipeline == "traditional":
-        native = replace(display, response="linear")
-    values, met = native._core.develop(
-        np.ascontiguousarray(image),
-        exposure=exposure,
-        reference=display.shown_white,
-        tone=chosen.tone.casefold(),
-        gamut=chosen.gamut.casefold(),
-    )
-    if chosen.pipeline == "traditional":
-        codes = _through_table(values, display, chosen)
+        linear, met = replace(display, response="linear")._core.develop(image, **steps)
+        codes = _through_table(linear, display, chosen)
     else:
-        codes = dither.quantise(values, chosen.bits, chosen.dither, chosen.seed)
+        codes, met = display._core.show(
+            image, bits=chosen.bits, dither=chosen.dither.casefold(), seed=chosen.seed, **steps
+        )
     pixels = image.shape[0] * image.shape[1]
     return Shown(
         Picture(codes, display, chosen.bits, dict(text or {})),

@@ -1,8 +1,8 @@
 """A picture: code values for one display, and the PNG file that says which display they are for.
 
-Between an image (absolute colour, `illuminant.image.Image`) and a picture lies the whole of book figure 5.1; here only
-what was decided is kept. A file of ours holds the display's description as text (`Display`, JSON), beside the chunks that
-other programs read:
+Between an image (absolute colour, `illuminant.image.Image`) and a picture lies the whole of book figure 5.1; here
+only what was decided is kept. A file of ours holds the display's description as text (`Display`, JSON), beside the
+chunks that other programs read:
 
 - sRGB: `sRGB`, with `gAMA` and `cHRM` for older readers.
 - Display P3, Rec.2020 PQ and HLG, and linear XYZ: `cICP` (code points of ITU-T H.273) and `cHRM`.
@@ -30,7 +30,7 @@ import json
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from illuminant import output
 from illuminant.display import displays
@@ -74,7 +74,7 @@ class Picture:
             raise UsageError(f"A picture is an array of shape (height, width, 3), not {codes.shape}.")
         if not np.issubdtype(codes.dtype, np.integer) or int(codes.max()) > self.top or int(codes.min()) < 0:
             raise UsageError(f"A picture of {self.bits} bits holds whole numbers from 0 to {self.top}.")
-        self.codes = np.ascontiguousarray(codes, wanted)
+        self.codes = cast("Codes", np.ascontiguousarray(codes, wanted))
 
     @classmethod
     def of_values(
@@ -99,7 +99,7 @@ class Picture:
         inside = np.nan_to_num(np.clip(np.asarray(values, np.float64), 0.0, 1.0))
         codes = np.floor(inside * top + 0.5)  # halves go up, as in every table of the field
         kind = np.uint8 if bits <= 8 else np.uint16
-        return cls(codes.astype(kind), displays.named(display), bits, dict(text or {}))
+        return cls(cast("Codes", codes.astype(kind)), displays.named(display), bits, dict(text or {}))
 
     @property
     def top(self) -> int:
