@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["Deviation", "deviation", "gradients", "measure", "small_display", "strips", "study"]
+__all__ = ["KINDS", "Deviation", "deviation", "gradients", "measure", "small_display", "strips", "study"]
 
 KINDS = ("bright", "saturated")
 
@@ -131,7 +131,8 @@ def _lab(linear: Array, display: displays.Display) -> Array:
     from illuminant import color
 
     white = display.to_xyz_matrix.sum(axis=1)
-    return color.xyz_to_lab(linear @ display.to_xyz_matrix.T, tuple(white))
+    lab: Array = color.xyz_to_lab(linear @ display.to_xyz_matrix.T, tuple(white))
+    return lab
 
 
 def _hue(linear: Array, display: displays.Display) -> tuple[Array, Array]:
