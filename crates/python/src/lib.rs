@@ -8,6 +8,7 @@ mod color;
 mod colorimetry;
 mod display;
 mod dither;
+mod icc;
 mod optics;
 mod radiosity;
 mod sampling;
@@ -28,6 +29,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     color::register(m)?;
     colorimetry::register(m)?;
     display::register(m)?;
+    icc::register(m)?;
     dither::register(m)?;
     optics::register(m)?;
     sampling::register(m)?;

@@ -32,7 +32,7 @@ mod dot_diffusion;
 mod error_diffusion;
 mod patterning;
 mod random;
-mod thresholds;
+pub(crate) mod thresholds;
 
 pub use dot_diffusion::ClassMatrix;
 pub use error_diffusion::Weights;

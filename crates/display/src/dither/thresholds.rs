@@ -141,6 +141,15 @@ impl Thresholds {
     }
 }
 
+/// Values of a run of a row, each with its complement.
+#[inline(always)]
+pub(crate) fn step_all<T: Code>(values: &[f32], bits: u32, complements: &[f32], codes: &mut [T]) {
+    let top = top(bits);
+    for ((code, &value), &complement) in codes.iter_mut().zip(values).zip(complements) {
+        *code = step(value, top, complement);
+    }
+}
+
 /// One value: `complement` is 1 − t.
 #[inline(always)]
 pub(super) fn step<T: Code>(value: f32, top: f32, complement: f32) -> T {
