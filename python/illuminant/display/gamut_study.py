@@ -117,9 +117,9 @@ def gradients(display: displays.Display, kind: str, hues: int = 12, steps: int =
     along = np.linspace(0.0, 2.0, steps)
     if kind == "bright":
         # The chromaticity of half the saturation at the edge, as surfaces have it.
-        colour = hsv_to_rgb(np.stack([angles, np.full(hues, 0.6), np.ones(hues)], axis=-1))
+        colour: Array = hsv_to_rgb(np.stack([angles, np.full(hues, 0.6), np.ones(hues)], axis=-1))
         return colour[:, None, :] * along[None, :, None]
-    edge = hsv_to_rgb(np.stack([angles, np.ones(hues), np.ones(hues)], axis=-1))
+    edge: Array = hsv_to_rgb(np.stack([angles, np.ones(hues), np.ones(hues)], axis=-1))
     luminance = display.to_xyz_matrix[1]
     # A luminance that this hue reaches at its edge, dimmed a little so that white is far.
     edge *= 0.8
