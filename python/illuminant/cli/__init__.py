@@ -17,7 +17,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from illuminant.cli import audit, check, compare, diff, info, new, radiosity, render, spectra
+from illuminant.cli import audit, check, compare, develop, diff, info, new, radiosity, render, spectra
 from illuminant.cli.report import sentence
 
 __all__ = ["app", "main", "run"]
@@ -39,6 +39,7 @@ app = typer.Typer(
 app.command("new", short_help="Write a commented starter scene.")(new.new)
 app.command("check", short_help="Report every mistake of a scene.")(check.check)
 app.command("render", short_help="Render a scene to an image.")(render.render)
+app.command("develop", short_help="Show an image under other lamps, or other eyes.")(develop.develop)
 app.command("compare", short_help="Render by every technique and model.")(compare.compare)
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("audit", short_help="Test the physics of a material.")(audit.audit)
