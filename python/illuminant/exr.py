@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["LARGEST_HALF", "REC709", "XYZ", "Contents", "fits_half", "read", "write"]
+__all__ = ["LARGEST_HALF", "XYZ", "Contents", "fits_half", "read", "write"]
 
 LARGEST_HALF = 65504.0
 """The largest finite half float."""
@@ -49,9 +49,6 @@ MAGIC = b"\x76\x2f\x31\x01"
 
 XYZ = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1 / 3, 1 / 3)
 """`chromaticities` of CIE XYZ: x and y of red, green, blue and white."""
-
-REC709 = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)
-"""What a file without `chromaticities` has, by the standard."""
 
 _LANE = re.compile(r"(?:(?P<layer>spectra:.*)\.)?S0\.(?P<nm>\d+),(?P<part>\d+)nm", re.DOTALL)
 # Layers of one value a pixel whose channel compositing programs look for.
@@ -64,7 +61,7 @@ class Contents:
 
     Attributes:
         rgb: (h, w, 3), in the system of `chromaticities`.
-        chromaticities: x and y of red, green, blue and white.
+        chromaticities: x and y of red, green, blue and white; None when the file that was read does not say.
         layers: (h, w, c) arrays by name; those with three values are XYZ or vectors, never in an RGB system.
         wavelengths_nm: (N,) when lanes were kept.
         to_xyz: (3, N) when lanes were kept; the lanes themselves are the layer `spectra`, and those of each lamp the
@@ -74,7 +71,7 @@ class Contents:
     """
 
     rgb: Array
-    chromaticities: tuple[float, ...] = XYZ
+    chromaticities: tuple[float, ...] | None = XYZ
     layers: dict[str, Array] = field(default_factory=dict)
     wavelengths_nm: Array | None = None
     to_xyz: Array | None = None
@@ -149,7 +146,7 @@ def write(path: str | Path, contents: Contents) -> None:
     spec.channelnames = tuple(names)
     spec.attribute("compression", "zip")
     spec.attribute("DateTime", "")  # the same render shall give the same bytes
-    spec.attribute("chromaticities", "float[8]", tuple(contents.chromaticities))
+    spec.attribute("chromaticities", "float[8]", tuple(contents.chromaticities or XYZ))
     for key, value in contents.attributes.items():
         if key == "settings":
             value = json.dumps(value)
@@ -248,7 +245,7 @@ def read(path: str | Path) -> Contents:
     attributes = {item.name: item.value for item in spec.extra_attribs}
     contents = Contents(
         rgb=pixels[..., [index[name] for name in colour]].astype(np.float64),
-        chromaticities=XYZ if colour[0] == "X" else _floats(attributes.get("chromaticities", REC709)),
+        chromaticities=XYZ if colour[0] == "X" else _floats(attributes.get("chromaticities")),
         half=spec.format == oiio.HALF,
     )
     _read_layers(contents, pixels, [name for name in spec.channelnames if name not in (*colour, "A")], index)
@@ -274,8 +271,8 @@ def read(path: str | Path) -> Contents:
     return contents
 
 
-def _floats(values: Any) -> tuple[float, ...]:
-    return tuple(float(value) for value in values)
+def _floats(values: Any) -> tuple[float, ...] | None:
+    return None if values is None else tuple(float(value) for value in values)
 
 
 def _read_layers(contents: Contents, pixels: Array, names: list[str], index: dict[str, int]) -> None:

@@ -108,10 +108,11 @@ def _png_facts(path: Path) -> dict[str, Any]:
     from illuminant import png
 
     header = png.read_header(path)
+    meant = header.display.name if header.display else "which does not say for which display"
     facts: dict[str, Any] = {
         "file": str(path),
         "size": [header.width, header.height],
-        "format": f"PNG, {header.bits} bits a channel, {header.system or 'sRGB (nothing stated)'}",
+        "format": f"PNG, {header.bits} bits a channel, {meant}",
     }
     if header.text.get("Exposure"):
         exposure = float(header.text["Exposure"])
@@ -129,8 +130,13 @@ def _exr_facts(path: Path) -> dict[str, Any]:
     contents = exr.read(path)
     height, width = contents.rgb.shape[:2]
     found = contents.attributes
-    xyz = all(abs(a - b) < 1e-6 for a, b in zip(contents.chromaticities, exr.XYZ, strict=True))
-    system = "XYZ" if xyz else found.get("rgbSystem", "RGB, see chromaticities")
+    stated = contents.chromaticities
+    xyz = stated is not None and all(abs(a - b) < 1e-6 for a, b in zip(stated, exr.XYZ, strict=True))
+    system = (
+        "XYZ"
+        if xyz
+        else found.get("rgbSystem", "RGB, see chromaticities" if stated else "RGB of unknown primaries")
+    )
     settings = found.get("settings")
     settings = settings if isinstance(settings, dict) else {}
     facts: dict[str, Any] = {

@@ -1,6 +1,7 @@
 //! PNG files that say how their numbers are meant.
 
 use crate::Pixels;
+use std::io::Write;
 use thiserror::Error;
 
 /// Why no PNG could be made.
@@ -32,6 +33,10 @@ pub struct PngTags {
     pub cicp: Option<[u8; 4]>,
     /// Whether the image is sRGB with the intent "relative colorimetric", for sRGB.
     pub srgb: bool,
+    /// Name (Latin-1, up to 79 characters) and bytes of an ICC profile, for iCCP.
+    pub icc: Option<(String, Vec<u8>)>,
+    /// How many bits of each channel carry the image, for sBIT.
+    pub significant_bits: Option<u8>,
     /// Keywords (Latin-1, up to 79 characters) and texts, for iTXt.
     pub text: Vec<(String, String)>,
 }
@@ -64,6 +69,9 @@ pub fn encode_png(pixels: &Pixels, width: u32, height: u32, tags: &PngTags) -> R
     if let Some(cicp) = tags.cicp {
         writer.write_chunk(png::chunk::ChunkType(*b"cICP"), &cicp)?;
     }
+    if let Some((name, profile)) = &tags.icc {
+        writer.write_chunk(png::chunk::iCCP, &profile_chunk(name, profile)?)?;
+    }
     if tags.srgb {
         writer.write_chunk(png::chunk::sRGB, &[1])?;
     }
@@ -74,6 +82,9 @@ pub fn encode_png(pixels: &Pixels, width: u32, height: u32, tags: &PngTags) -> R
         let bytes: Vec<u8> = chromaticities.iter().flatten().flat_map(|&v| scaled(v)).collect();
         writer.write_chunk(png::chunk::cHRM, &bytes)?;
     }
+    if let Some(bits) = tags.significant_bits {
+        writer.write_chunk(png::chunk::ChunkType(*b"sBIT"), &[bits; 3])?;
+    }
     match pixels {
         Pixels::Eight(codes) => writer.write_image_data(codes)?,
         Pixels::Sixteen(codes) => {
@@ -83,6 +94,17 @@ pub fn encode_png(pixels: &Pixels, width: u32, height: u32, tags: &PngTags) -> R
     }
     writer.finish()?;
     Ok(file)
+}
+
+/// The data of an iCCP chunk: name, zero, method zero, and the profile compressed.
+fn profile_chunk(name: &str, profile: &[u8]) -> Result<Vec<u8>, PngError> {
+    let keyword: Vec<u8> =
+        name.chars().filter(|c| (' '..='~').contains(c)).take(79).map(|c| c as u8).collect();
+    let mut data = if keyword.is_empty() { b"ICC profile".to_vec() } else { keyword };
+    data.extend([0, 0]);
+    let mut stream = flate2::write::ZlibEncoder::new(data, flate2::Compression::default());
+    stream.write_all(profile).map_err(png::EncodingError::IoError)?;
+    Ok(stream.finish().map_err(png::EncodingError::IoError)?)
 }
 
 #[cfg(test)]

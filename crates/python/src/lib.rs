@@ -7,6 +7,8 @@ mod arrays;
 mod color;
 mod colorimetry;
 mod display;
+mod dither;
+mod icc;
 mod optics;
 mod radiosity;
 mod sampling;
@@ -27,6 +29,8 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     color::register(m)?;
     colorimetry::register(m)?;
     display::register(m)?;
+    icc::register(m)?;
+    dither::register(m)?;
     optics::register(m)?;
     sampling::register(m)?;
     scene::register(m)?;

@@ -17,7 +17,23 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from illuminant.cli import audit, check, compare, develop, diff, info, new, radiosity, render, spectra
+from illuminant.cli import (
+    audit,
+    calibrate,
+    check,
+    compare,
+    develop,
+    diff,
+    display,
+    gamma,
+    info,
+    new,
+    pattern,
+    radiosity,
+    render,
+    spectra,
+    video,
+)
 from illuminant.cli.report import sentence
 
 __all__ = ["app", "main", "run"]
@@ -41,11 +57,16 @@ app.command("check", short_help="Report every mistake of a scene.")(check.check)
 app.command("render", short_help="Render a scene to an image.")(render.render)
 app.command("develop", short_help="Show an image under other lamps, or other eyes.")(develop.develop)
 app.command("compare", short_help="Render by every technique and model.")(compare.compare)
+app.command("display", short_help="Show an image on a display.")(display.display)
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("audit", short_help="Test the physics of a material.")(audit.audit)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
+app.add_typer(gamma.app, name="gamma", short_help="Tables, fits and studies of a monitor's gamma.")
+app.command("pattern", short_help="Draw a test pattern for a display.")(pattern.pattern)
+app.add_typer(calibrate.app, name="calibrate", short_help="Adjust, measure and describe a display.")
 app.add_typer(radiosity.app, name="radiosity", short_help="Solve for light between surfaces, relight.")
 app.add_typer(spectra.app, name="spectra", short_help="List, show, plot, convert measured spectra.")
+app.add_typer(video.app, name="video", short_help="Send pictures through NTSC, and check them.")
 
 
 def _version(wanted: bool) -> None:
@@ -146,8 +167,8 @@ def _foreign(error: Exception, prog_name: str) -> int:
     context = getattr(error, "ctx", None)
     path = getattr(context, "command_path", prog_name) or prog_name
     text = " ".join(str(message()).split()).rstrip(".")
-    for pattern, plain in _PLAINER:
-        text = re.sub(pattern, plain, text)
+    for theirs, plain in _PLAINER:
+        text = re.sub(theirs, plain, text)
     sentence("Error", f"{text} (see `{path} --help`).")
     return 2
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from illuminant.cli.options import Json
+from illuminant.cli.options import Bits, DisplayName, DitherName, GamutName, Json, ToneName, Transfer
 
 if TYPE_CHECKING:
     from illuminant.image import Image, Saved
@@ -78,16 +78,21 @@ def develop(
             show_default=False,
         ),
     ] = None,
+    display: DisplayName = "sRGB",
+    transfer: Transfer = None,
+    tone: ToneName = "none",
+    gamut: GamutName = None,
+    dither: DitherName = "none",
+    bits: Bits = 8,
     rgb: Annotated[
         str | None,
         typer.Option(
-            "--rgb", metavar="SYSTEM", help="RGB system of the file (sRGB; XYZ for EXR).", show_default=False
+            "--rgb",
+            metavar="SYSTEM",
+            help="RGB system of an EXR: sRGB, Rec.2020, ... (XYZ).",
+            show_default=False,
         ),
     ] = None,
-    bits: Annotated[
-        int,
-        typer.Option("--bits", metavar="8|16", help="Bits of a channel of a PNG (8).", show_default=False),
-    ] = 8,
     json: Json = False,
 ) -> None:
     """Show an image under another observer, other lamps or other powers.
@@ -103,14 +108,15 @@ def develop(
     """
     from illuminant.cli.report import emit_json
     from illuminant.display import developing
+    from illuminant.display.gamut import DEFAULT
+    from illuminant.display.look import Look
     from illuminant.errors import UsageError
     from illuminant.image import Image, check_output
 
     check_output(output)
     if regular is not None and output.suffix.lower() != ".exr":
         raise UsageError(f"--regular {regular:g}: a PNG holds no spectra; name an .exr to be written.")
-    if bits not in (8, 16):
-        raise UsageError(f"--bits {bits}: a PNG has 8 or 16 bits a channel.")
+    look = Look(display, exposure, transfer, tone, gamut or DEFAULT, dither, bits)
     source = Image.open(image)
     names = developing.lamps_of(source)
     lamps = dict(_pair("--lamp", word, names) for word in lamp or [])
@@ -120,7 +126,7 @@ def develop(
     made = developing.develop(
         source, observer=observer, matrix=matrix, lamps=lamps, power=powers, regular=regular, name=str(image)
     )
-    saved = made.save(output, exposure=exposure, rgb=rgb, bits=bits)
+    saved = made.save(output, look, rgb=rgb)
     stages = made.settings.get("developed")
     before = source.settings.get("developed")
     done = stages[len(before or []) :] if isinstance(stages, list) else []
@@ -157,7 +163,7 @@ def _facts(source: Image, made: Image, saved: Saved, done: list[Any]) -> dict[st
     return {
         "file": saved.path,
         "exposure": saved.exposure,
-        "clamped": saved.clamped,
+        "outside": saved.outside,
         "white_before": source.white(),
         "white": made.white(),
         "developed": done,
@@ -173,7 +179,5 @@ def _say(saved: Saved, lines: list[str]) -> None:
     note(f"{saved.path}: {lines[0] if len(lines) == 1 else 'developed' if lines else 'as it was'}{shown}")
     for line in lines if len(lines) > 1 else []:
         note(f"  {line}")
-    if saved.clamped and saved.clamped >= 0.0005:
-        note(
-            f"{100 * saved.clamped:.1f} % of the pixels are outside the gamut or above white, and are clamped."
-        )
+    if saved.outside and saved.outside >= 0.0005:
+        note(f"{100 * saved.outside:.1f} % of the pixels are outside the gamut or above white.")

@@ -1,0 +1,117 @@
+"""`illuminant display`: a finished image becomes what a display is sent."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from illuminant.cli.options import (
+    Assume,
+    Bits,
+    DisplayName,
+    DitherName,
+    Exposure,
+    GamutName,
+    Json,
+    ToneName,
+    Transfer,
+)
+
+__all__ = ["display"]
+
+
+def display(
+    image: Annotated[
+        Path, typer.Argument(metavar="IN", help="Image (.exr), or a picture (.png).", show_default=False)
+    ],
+    output: Annotated[
+        Path, typer.Argument(metavar="OUT", help="Picture to be written (.png).", show_default=False)
+    ],
+    name: DisplayName = "sRGB",
+    exposure: Exposure = None,
+    absolute: Annotated[
+        bool,
+        typer.Option(
+            "--absolute", help="Show luminances as they are: a cd/m² of the image is one on the display."
+        ),
+    ] = False,
+    transfer: Transfer = None,
+    tone: ToneName = "none",
+    gamut: GamutName = None,
+    dither: DitherName = "none",
+    bits: Bits = 8,
+    seed: Annotated[
+        int, typer.Option("--seed", metavar="N", help="Of the random dither (0).", show_default=False)
+    ] = 0,
+    pipeline: Annotated[
+        str,
+        typer.Option(
+            "--pipeline",
+            metavar="NAME",
+            help="ideal, or traditional: linear light stored, gamma by a lookup table of 8 bits (figure 5.1).",
+            show_default=False,
+        ),
+    ] = "ideal",
+    assume: Assume = None,
+    json: Json = False,
+) -> None:
+    """Show an image on a display: exposure, primaries, tone, gamut, transfer, dither, bits.
+
+    An EXR holds absolute colour; without --exposure its scene's white becomes 0.8. A PNG is a picture for one display,
+    and looks the same on the other: white is shown as white, and every colour beside it as it was.
+
+    \b
+    Examples:
+      illuminant display room.exr room.png --display 'Display P3' --bits 10
+      illuminant display room.exr room.png --gamut clamp --dither blue-noise
+      illuminant display left.png right.png --display monitor.toml
+    """
+    from illuminant.cli.report import emit_json, note
+    from illuminant.display.gamut import DEFAULT
+    from illuminant.display.look import Look
+    from illuminant.errors import UsageError
+    from illuminant.image import RELATIVE, UNIT, Image, check_output
+
+    if output.suffix.lower() != ".png":
+        raise UsageError(f"{output}: a picture for a display is saved as .png.")
+    check_output(output)
+    if absolute and exposure is not None:
+        raise UsageError("--absolute shows luminances as they are: it goes without --exposure.")
+    look = Look(name, exposure, transfer, tone, gamut or DEFAULT, dither, bits, seed, pipeline)
+    opened = Image.open(image, assume)
+    chosen = False
+    if absolute:
+        if opened.unit != UNIT:
+            raise UsageError(
+                f"{image} is {RELATIVE}: its luminances are not known, so --absolute cannot show them."
+            )
+        exposure = 1.0 / look.target.shown_white
+    elif exposure is None and opened.exposure is None:
+        exposure, chosen = opened.auto_exposure(), True
+    shown = opened.shown(look, exposure=exposure)
+    shown.picture.save(output)
+    facts = {
+        "file": output,
+        "display": look.target.name,
+        "exposure": shown.exposure,
+        "chromaticity_outside": shown.negative,
+        "too_bright": shown.above,
+        "not_finite": shown.not_finite,
+        "bits": bits,
+        "look": look.to_dict(),
+    }
+    if json:
+        emit_json(facts)
+        return
+    note(f"{output}: {shown.picture.width}x{shown.picture.height}, {bits} bits, for {look.target.name}")
+    if chosen:
+        note(f"White is shown as 0.8; --exposure {shown.exposure:g} repeats it.")
+    if shown.outside >= 0.0005:
+        note(
+            f"{100 * shown.negative:.1f} % of the pixels have a chromaticity outside the gamut, "
+            f"{100 * shown.above:.1f} % are too bright: moved by {look.gamut}."
+        )
+    if shown.not_finite:
+        note(f"{shown.not_finite:,} pixels are no numbers, and black.")

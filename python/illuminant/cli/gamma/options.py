@@ -1,0 +1,50 @@
+"""Options of several verbs of `illuminant gamma`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+__all__ = ["Bits", "Colour", "Gamma", "InBits", "OutBits", "Picture", "Rounding", "numbers"]
+
+Gamma = Annotated[
+    str,
+    typer.Option("--gamma", metavar="G", help="γ of the monitor, or the name of a curve such as sRGB."),
+]
+
+InBits = Annotated[int, typer.Option("--in-bits", metavar="N", help="Bits of the image's codes.")]
+
+OutBits = Annotated[int, typer.Option("--out-bits", metavar="N", help="Bits of the display's codes.")]
+
+Rounding = Annotated[
+    str, typer.Option("--rounding", metavar="HOW", help="How entries become whole: nearest or truncate.")
+]
+
+Bits = Annotated[str, typer.Option("--bits", metavar="A,B", help="Bits of the files that are compared.")]
+
+Colour = Annotated[str, typer.Option("--colour", metavar="R,G,B", help="Linear RGB of the surface, 0 to 1.")]
+
+Picture = Annotated[
+    Path,
+    typer.Option("-o", "--output", metavar="FILE", help="A .png or .svg.", show_default=False),
+]
+
+
+def numbers(text: str, option: str) -> list[float]:
+    """The numbers of a list with commas.
+
+    Raises:
+        UsageError: one is no number.
+
+    Example:
+        >>> numbers("1.8,2.2", "--gammas")
+        [1.8, 2.2]
+    """
+    from illuminant.errors import UsageError
+
+    try:
+        return [float(word) for word in text.split(",")]
+    except ValueError:
+        raise UsageError(f"{option} {text}: expected numbers with commas between them.") from None

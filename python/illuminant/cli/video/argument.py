@@ -1,0 +1,69 @@
+"""Arguments that the verbs of `illuminant video` share, and how their words are read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from illuminant.display.video.standard import Bandwidth
+
+__all__ = ["Bands", "Correct", "Out", "Picture", "bandwidth", "size_of"]
+
+Picture = Annotated[Path, typer.Argument(metavar="IN", help="Picture (.png).", show_default=False)]
+Out = Annotated[Path, typer.Argument(metavar="OUT", help="Picture to be written (.png).", show_default=False)]
+Bands = Annotated[
+    str | None,
+    typer.Option("--bandwidth", metavar="Y,I,Q", help="Bandwidths in MHz (4.2,1.3,0.5).", show_default=False),
+]
+Correct = Annotated[
+    bool,
+    typer.Option("--correct", help="Take the colours of the file to NTSC's primaries first, and back after."),
+]
+
+
+def bandwidth(text: str | None) -> Bandwidth:
+    """Three numbers with commas between them; None: those of the standard.
+
+    Raises:
+        UsageError: anything else.
+
+    Example:
+        >>> bandwidth("4.2,1,0.5").i
+        1.0
+        >>> bandwidth("4.2")
+        Traceback (most recent call last):
+        illuminant.errors.UsageError: --bandwidth 4.2: expected three numbers in MHz, such as 4.2,1.3,0.5.
+    """
+    from illuminant.display.video.standard import BANDWIDTH, Bandwidth
+    from illuminant.errors import UsageError
+
+    if text is None:
+        return BANDWIDTH
+    try:
+        y, i, q = (float(part) for part in text.split(","))
+    except ValueError:
+        raise UsageError(f"--bandwidth {text}: expected three numbers in MHz, such as 4.2,1.3,0.5.") from None
+    return Bandwidth(y, i, q)
+
+
+def size_of(text: str) -> tuple[int, int]:
+    """Width and height as `640x480`.
+
+    Raises:
+        UsageError: anything else.
+
+    Example:
+        >>> size_of("640x480")
+        (640, 480)
+    """
+    import re
+
+    from illuminant.errors import UsageError
+
+    found = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
+    if not found:
+        raise UsageError(f"--size {text}: expected width and height in pixels, such as 640x480.")
+    return int(found[1]), int(found[2])
