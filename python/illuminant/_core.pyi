@@ -525,6 +525,10 @@ class Render:
         """The wavelength that stands for each spectral sample, nm."""
     def to_xyz(self, lamp: int = 0) -> NDArray[np.float64]:
         """The map from spectral samples to XYZ for light of a lamp, (3, N)."""
+    def lamp_spectra(self) -> list[tuple[str, NDArray[np.float64], NDArray[np.float64]]]:
+        """Each lamp: its name, its spectrum at each nm of the scene's range, and its light in the spectral samples."""
+    def reflectances(self) -> list[NDArray[np.float64]]:
+        """The reflectances of what stands in the scene at each nm of its range: each once, if it has a colour."""
     def replay(self, x: int, y: int, sample: int) -> dict[str, Any]:
         """The vertices of one path, pass by pass, and what it brought."""
     def ray_rate(self, first: int, last: int) -> dict[str, float]:

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
     from illuminant.display.displays import Display
     from illuminant.display.look import Look, Shown
+    from illuminant.kept_spectra import KeptSpectra
 
     Array = NDArray[np.floating[Any]]
 
@@ -91,8 +92,8 @@ class Image:
     Attributes:
         xyz: (h, w, 3) float64; Y in `unit`.
         layers: further arrays (h, w, c) by name: `depth` (m), `normal`, `albedo` (XYZ, relative), `samples`,
-            `lamp:NAME` (XYZ, in `unit`), `spectra` (lanes, W/(sr m² nm)), `emission` (1 where a pixel shines
-            itself).
+            `lamp:NAME` (XYZ, in `unit`), `spectra` (lanes, W/(sr m² nm)), `spectra:NAME` (lanes of the light of
+            one lamp), `emission` (1 where a pixel shines itself).
         unit: of Y: `cd/m2`, or `relative` for an image from a file that does not say.
         settings: what is needed to make it again: scene, hash, version, technique, sampling, samples, seed,
             ...
@@ -100,6 +101,7 @@ class Image:
             nobody did.
         statistics: how the work went: seconds, rays, dropped samples; not saved.
         wavelengths_nm, to_xyz: of the lanes (N,) and (3, N), when they were kept; xyz = to_xyz @ lanes.
+        basis: what the lanes mean: sampling, lamps and reflectances; for `illuminant.display.develop`.
     """
 
     xyz: Array
@@ -110,6 +112,7 @@ class Image:
     statistics: dict[str, Any] = field(default_factory=dict)
     wavelengths_nm: Array | None = None
     to_xyz: Array | None = None
+    basis: KeptSpectra | None = None
 
     def __post_init__(self) -> None:
         """Check the shape of the colour."""
@@ -258,6 +261,8 @@ class Image:
         }
         if self.unit == UNIT:
             attributes["whiteLuminance"] = 1.0
+        if self.basis is not None and "spectra" in self.layers:
+            attributes["basis"] = self.basis.to_json()
         colour = self.xyz
         chromaticities: tuple[float, ...] = exr.XYZ
         if rgb.upper() != "XYZ":
@@ -335,6 +340,19 @@ class Image:
         white = float(found.get("whiteLuminance", 0.0))
         unit = found.get("unit") or (UNIT if white > 0 else RELATIVE)
         settings = found.get("settings")
+        basis = None
+        if contents.wavelengths_nm is not None and isinstance(found.get("basis"), str):
+            from illuminant.kept_spectra import KeptSpectra
+
+            try:
+                basis = KeptSpectra.from_json(found["basis"])
+            except ImageError as error:
+                raise ImageError(f"{path} cannot be read: {error}.") from None
+            if len(basis.wavelengths_nm) != len(contents.wavelengths_nm):
+                raise ImageError(
+                    f"{path} cannot be read: it has {len(contents.wavelengths_nm)} lanes, and illuminant:basis has "
+                    f"{len(basis.wavelengths_nm)}."
+                )
         return cls(
             xyz * white if white > 0 and white != 1.0 else xyz,
             layers=contents.layers,
@@ -344,6 +362,7 @@ class Image:
             exposure=float(f"{found['exposure']:.7g}") if found.get("exposure") else None,
             wavelengths_nm=contents.wavelengths_nm,
             to_xyz=contents.to_xyz,
+            basis=basis,
         )
 
     def show(self, *, exposure: float | None = None) -> None:

@@ -164,7 +164,7 @@ def remake(settings: dict[str, Any], path: Path, exposure: float | None) -> str 
     """
     import shlex
 
-    if not settings.get("scene"):
+    if not settings.get("scene") or "developed" in settings:
         return None
     words = ["illuminant", "render", str(settings["scene"]), "-o", str(path)]
     samples = settings.get("samples")
@@ -173,9 +173,9 @@ def remake(settings: dict[str, Any], path: Path, exposure: float | None) -> str 
     if settings.get("size"):
         width, height = settings["size"]
         words += ["--size", f"{width}x{height}"]
-    for key in ("technique", "illumination", "sampling", "depth", "filter", "seed", "error"):
+    for key in ("technique", "illumination", "sampling", "depth", "filter", "seed", "error", "develop_for"):
         if settings.get(key) is not None:
-            words += [f"--{key}", str(settings[key])]
+            words += [f"--{key.replace('_', '-')}", str(settings[key])]
     if exposure is not None:
         words += ["--exposure", f"{exposure:g}"]
     return shlex.join(words)

@@ -22,6 +22,7 @@ from illuminant.cli import (
     calibrate,
     check,
     compare,
+    develop,
     diff,
     display,
     gamma,
@@ -55,6 +56,7 @@ app = typer.Typer(
 app.command("new", short_help="Write a commented starter scene.")(new.new)
 app.command("check", short_help="Report every mistake of a scene.")(check.check)
 app.command("render", short_help="Render a scene to an image.")(render.render)
+app.command("develop", short_help="Show an image under other lamps, or other eyes.")(develop.develop)
 app.command("compare", short_help="Render by every technique and model.")(compare.compare)
 app.command("display", short_help="Show an image on a display.")(display.display)
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)

@@ -260,8 +260,19 @@ def render(
     lamps: Annotated[bool, typer.Option("--lamps", help="A layer for the light of each lamp.")] = False,
     keep_spectra: Annotated[
         bool,
-        typer.Option("--keep-spectra", help="A channel for each wavelength, in the EXR."),
+        typer.Option(
+            "--keep-spectra",
+            help="A channel for each wavelength, in the EXR; with --lamps for each lamp too.",
+        ),
     ] = False,
+    develop_for: Annotated[
+        str | None,
+        typer.Option(
+            "--develop-for",
+            metavar="A,FL11",
+            help="Lamps that illuminant develop shall show this image under: fitted:N serves them too.",
+        ),
+    ] = None,
     half: Annotated[
         bool,
         typer.Option("--half", help="16-bit floats in the EXR; their largest is 65504."),
@@ -334,6 +345,7 @@ def render(
         "layers": layers,
         "keep_spectra": keep_spectra or None,
         "lamps": lamps or None,
+        "develop_for": develop_for,
         "time": time,
         "error": error,
         "sampler": sampler,
@@ -374,9 +386,8 @@ def _again(scene: Path, options: dict[str, Any]) -> str:
     import shlex
 
     names = ("technique", "illumination", "sampling", "size", "depth", "filter", "sampler", "seed", "error")
-    given = [
-        part for name in names if options[name] is not None for part in (f"--{name}", str(options[name]))
-    ]
+    words = {f"--{name}": options[name] for name in names} | {"--develop-for": options["develop_for"]}
+    given = [part for word, value in words.items() if value is not None for part in (word, str(value))]
     given += ["--caustics"] if options["caustics"] else []
     return shlex.join(["illuminant", "render", str(scene), *given])
 
