@@ -124,7 +124,8 @@ def gradients(display: displays.Display, kind: str, hues: int = 12, steps: int =
     # A luminance that this hue reaches at its edge, dimmed a little so that white is far.
     edge *= 0.8
     grey = (edge @ luminance)[:, None, None] * np.ones(3)
-    return grey + (edge[:, None, :] - grey) * along[None, :, None]
+    found: Array = grey + (edge[:, None, :] - grey) * along[None, :, None]
+    return found
 
 
 def _lab(linear: Array, display: displays.Display) -> Array:
