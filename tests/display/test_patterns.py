@@ -393,7 +393,7 @@ def test_safe_areas_are_the_fractions_of_the_standards():
     assert values[25, 500, 0] == 1.0 and values[50, 500, 0] == 1.0
     assert values[24, 500, 0] == values[40, 500, 0] == 0.25
     other = patterns.draw("safe-areas", Screen(1000, 500), standard="ST 2046-1")
-    assert other[25, 700, 0] == 1.0 and other[18, 700, 0] == 1.0, (
+    assert other[25, 700, 0] == 1.0 and other[17, 700, 0] == 1.0, (
         "the title area is as large as the old action area"
     )
 
