@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from illuminant import color
+from illuminant.display.calibration import readings as calibration
+from illuminant.display.calibration.monitor import Monitor
 from illuminant.display.gamma.banding import banding, compared, gradation, shaded_sphere
 from illuminant.display.gamma.brightness import brightness, equal_steps, lightness, resemblance
 from illuminant.display.gamma.drift import chart, shown, study
@@ -20,7 +22,7 @@ from illuminant.display.gamma.lookup_table import (
     quantised,
 )
 from illuminant.display.gamma.phosphors import read_phosphors
-from illuminant.display.gamma.readings import read_readings
+from illuminant.display.gamma.readings import Measured, read_readings
 from illuminant.display.gamma.remapping import degradation, remap
 from illuminant.display.gamma.response import correction, response
 from illuminant.display.gamma.storage import (
@@ -148,7 +150,7 @@ def test_tables_of_three_dimensions_of_colours_and_of_other_endings_are_refused(
     with pytest.raises(DataError, match="same number three times"):
         read_table(path)
     path.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(DataError, match="no text"):
+    with pytest.raises(DataError, match="not text"):
         read_table(path)
     with pytest.raises(DataError, match="cannot be read"):
         read_table(tmp_path / "none.cube")
@@ -312,12 +314,49 @@ def test_mistakes_in_readings_are_sentences():
             fit_gamma([1, 1, 1, 1, 1], [1, 2, 3, 4, 5], model)
 
 
+def test_black_that_was_read_by_itself_is_taken_off_first():
+    v = CODES / 255.0
+    found = fit_gamma(CODES, 80.0 * v**2.3 + 0.5, black=0.5)
+    assert (found.gamma, found.peak, found.floor) == pytest.approx((2.3, 80.0, 0.5), rel=1e-9)
+    np.testing.assert_allclose(found.luminance([0, 255]), [0.5, 80.5], rtol=1e-9)
+    np.testing.assert_allclose(found.residuals, 0.0, atol=1e-9)
+    with pytest.raises(UsageError, match="above black"):
+        fit_gamma(CODES, v, black=1.0)
+
+
+def test_noise_in_the_dark_does_little_harm_to_a_fit_with_a_cutoff():
+    random = np.random.default_rng(2)
+    v = np.linspace(0.03, 1.0, 33)
+    reads = [90.0 * v**2.35 + random.normal(0.0, 0.05, v.shape) for _ in range(40)]
+    gammas = [fit_gamma(v, read).gamma for read in reads]
+    assert abs(np.mean(gammas) - 2.35) < 0.005 and np.std(gammas) < 0.01
+    # Without a cutoff the darkest readings spoil it.
+    assert np.std([fit_gamma(v, read, cutoff=0.0).gamma for read in reads]) > 4 * np.std(gammas)
+
+
+def test_a_table_of_calibration_gives_greys_and_guns(tmp_path):
+    codes = calibration.plan()
+    model = Monitor(gamma=(2.1, 2.3, 2.2))
+    calibration.Readings(codes, model.xyz(codes)).save(tmp_path / "studio.csv")
+    found = read_readings(tmp_path / "studio.csv")
+    assert {name: len(column.codes) for name, column in found.items()} == {
+        "grey": 12, "red": 8, "green": 8, "blue": 8
+    }  # fmt: skip
+    assert found["red"].codes.max() == 255.0
+    gammas = [fit_gamma(*found[gun], "offset").gamma for gun in ("red", "green", "blue")]
+    assert gammas == pytest.approx(model.gamma, abs=2e-3)
+    short = calibration.Readings(codes[[0, -1]], model.xyz(codes[[0, -1]]))
+    short.save(tmp_path / "short.csv")
+    with pytest.raises(DataError, match="not 4 levels"):
+        read_readings(tmp_path / "short.csv")
+
+
 def test_readings_of_three_guns_come_from_one_file(tmp_path):
     path = tmp_path / "guns.csv"
     path.write_text("# a monitor\ncode, red, green, blue\n0,0,0.1,0\n255, 20, 70, 10  # white\n")
     found = read_readings(path)
-    assert list(found.luminances) == ["red", "green", "blue"]
-    assert found.luminances["green"].tolist() == [0.1, 70.0]
+    assert list(found) == ["red", "green", "blue"]
+    assert found["green"].luminances.tolist() == [0.1, 70.0]
     for content, message in (("", "no readings"), ("a,b\n1,x\n", ":2: 'x'"), ("1,2\n1\n", ":2: Expected 2")):
         path.write_text(content)
         with pytest.raises(DataError, match=message):
@@ -335,7 +374,7 @@ def test_xyz_of_the_guns_make_the_matrix_of_their_monitor(tmp_path):
     path.write_text("colour,X,Y,Z\n" + "".join(f"{n},{v[0]},{v[1]},{v[2]}\n" for n, v in rows.items()))
     found = read_phosphors(path)
     assert found.additivity == pytest.approx(1.0, abs=1e-12)
-    np.testing.assert_allclose(found.system().to_xyz, monitor.to_xyz, atol=1e-12)
+    np.testing.assert_allclose(found.display().to_xyz_matrix, monitor.to_xyz, atol=1e-12)
 
 
 def test_mistakes_in_phosphors_are_sentences(tmp_path):
@@ -353,7 +392,7 @@ def test_mistakes_in_phosphors_are_sentences(tmp_path):
             read_phosphors(path)
     path.write_text("colour,x,y\n" + rows.replace("0.155,0.07", "0.47,0.4675") + "white,0.313,0.329\n")
     with pytest.raises(UsageError):
-        read_phosphors(path).system()
+        read_phosphors(path).display()
 
 
 # --- a wrong gamma -----------------------------------------------------------------------------------------------
@@ -617,7 +656,7 @@ def test_plots_show_the_numbers_that_were_computed():
     levels = [len(np.unique(np.round(line.get_ydata(), 9))) for line in steps]
     assert levels[1] < levels[0] < levels[2]
     read = readings(4, 2.2)
-    drawn = gamma_curves.fitted(CODES, {"grey": read}, {"grey": fit_gamma(CODES, read)})
+    drawn = gamma_curves.fitted({"grey": Measured(CODES, read)}, {"grey": fit_gamma(CODES, read)})
     assert drawn.axes[0].get_xscale() == "log"
     assert "γ 2.2" in drawn.axes[0].get_legend().get_texts()[0].get_text()
     assert gamma_curves.perceived(0.02).axes[1].get_xlabel() == "code value, or perceived brightness"
