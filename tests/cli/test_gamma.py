@@ -122,7 +122,7 @@ def test_mistakes_in_the_studies_are_sentences(inside: Command, tmp_path: Path) 
     for arguments, sentence in (
         (("drift", "--gammas", "a,b"), "numbers with commas"),
         (("drift", "--gammas", "-1"), "above 0"),
-        (("drift", "--primaries", "mine"), "no RGB system"),
+        (("drift", "--primaries", "mine"), "no display 'mine'"),
         (("brightness", "--black", "0"), "share"),
         (("banding", "--bits", "8.5"), "whole numbers"),
         (("banding", "--bits", "12"), "8 bits"),
