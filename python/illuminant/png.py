@@ -49,6 +49,9 @@ _OTHER_CICP = {
     (9, 15): "Rec.2020",
 }
 
+LARGEST = 1 << 28
+"""Pixels of the largest image that is read."""
+
 LARGEST_PROFILE = 1 << 24
 """Bytes of the largest ICC profile that is read from a PNG."""
 
@@ -196,6 +199,8 @@ def read_header(path: str | os.PathLike[str]) -> Header:
         display = _stated(text, found)
     except (ValueError, IndexError, struct.error, zlib.error) as error:
         raise ImageError(f"{path} is not a whole PNG: {error}.") from error
+    if not 0 < width * height <= LARGEST:
+        raise ImageError(f"{path} has {width} × {height} pixels: 1 to {LARGEST:,} are read.")
     return Header(width, height, bits if 0 < bits <= depth else depth, display, text)
 
 
