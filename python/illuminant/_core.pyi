@@ -382,9 +382,9 @@ def dither(
 ) -> NDArray[np.uint8] | NDArray[np.uint16]:
     """Codes of 1 to 16 bits (uint8 up to 8) of values 0..1 in an array (h, w, c), of the same shape.
 
-    What is no number counts as 0, what lies outside 0..1 is clamped. `seed` matters to `random` only. Tiles of `bayer-N`
-    and `blue-noise` are shifted from channel to channel unless `channels_alike`. A float32 array in one piece is
-    not copied.
+    What is no number counts as 0, what lies outside 0..1 is clamped. `seed` matters to `random` only. Tiles of
+    `bayer-N` and `blue-noise` are shifted from channel to channel unless `channels_alike`. A float32 array in one
+    piece is not copied.
     """
 
 def dither_thresholds(name: str) -> NDArray[np.float32] | None:

@@ -2,13 +2,15 @@
 
 import io
 import json
+import re
+import shlex
 import sys
 
 import numpy as np
 import pytest
 
 from illuminant.cli import run
-from illuminant.display.calibration import readings
+from illuminant.display.calibration import monitor, readings
 from illuminant.display.displays import named
 
 
@@ -141,8 +143,33 @@ def test_a_profile_of_the_monitor_is_written(folder):
 )
 def test_a_mistake_is_one_sentence(folder, capsys, arguments, words):
     (folder / "bad.csv").write_text("r,g,b,X,Y,Z\n0,0,0,1,x,3\n")
-    assert run(["calibrate", "simulate", "--ideal", "-o", "good.csv"]) == 0
-    capsys.readouterr()
+    codes = readings.plan()
+    readings.Readings(codes, monitor.Monitor().xyz(codes)).save("good.csv")
     assert run(["calibrate", *arguments]) == 2
     captured = capsys.readouterr()
     assert words in captured.err and captured.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(("page", "least"), [("calibration.md", 10), ("test-patterns.md", 13)])
+def test_what_the_pages_ask_the_reader_to_type_runs(repository, folder, page, least):
+    text = (repository / "docs" / page).read_text(encoding="utf-8")
+    lines = [
+        line
+        for block in re.findall(r"^```sh runnable\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+        for line in block.splitlines()
+    ]
+    assert len(lines) >= least
+    for line in lines:
+        program, *words = shlex.split(line, comments=True)
+        # Pictures of the default size take longer than they tell.
+        small = ["--size", "160x120"] if words[0] == "pattern" and words[1] != "list" else []
+        assert program == "illuminant" and run([*words, *small]) == 0, line
+
+
+def test_the_program_of_the_page_prints_what_the_page_says(repository, capsys):
+    text = (repository / "docs" / "calibration.md").read_text(encoding="utf-8")
+    program, wanted = re.search(
+        r"^```python runnable\n(.*?)^```\n\n```text output\n(.*?)^```$", text, re.MULTILINE | re.DOTALL
+    ).groups()
+    exec(compile(program, "calibration.md", "exec"), {})
+    assert capsys.readouterr().out == wanted

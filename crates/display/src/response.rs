@@ -53,6 +53,9 @@ const C2: f64 = 2413.0 / 4096.0 * 32.0;
 const C3: f64 = 2392.0 / 4096.0 * 32.0;
 const PQ_PEAK: f64 = 10_000.0;
 
+/// More light than any display has, so that no curve meets infinity.
+pub(crate) const LARGEST: f64 = 1e12;
+
 const HLG_A: f64 = 0.178_832_77;
 const HLG_B: f64 = 1.0 - 4.0 * HLG_A;
 
@@ -82,7 +85,7 @@ impl Response {
         Transfer::named(name).map(Self::Transfer)
     }
 
-    /// The light of a code value; what lies outside 0 to 1 is taken to the nearer end.
+    /// The light of a code value; what lies outside 0 to 1 is taken to the nearer end, NaN to 0.
     ///
     /// ```
     /// use illuminant_color::Transfer;
@@ -92,7 +95,7 @@ impl Response {
     /// ```
     #[must_use]
     pub fn decode(&self, code: f64) -> f64 {
-        let code = code.clamp(0.0, 1.0);
+        let code = code.max(0.0).min(1.0);
         match self {
             Self::Transfer(transfer) => transfer.decode(code),
             Self::Bt1886 { black } => {
@@ -120,10 +123,10 @@ impl Response {
 
     /// The code value of a light: the inverse of [`Self::decode`], the smallest code where several give the same light.
     ///
-    /// Light below 0 is taken as 0; light above what a code value of 1 gives has the code 1.
+    /// Light below 0, and NaN, is taken as 0; light above what a code value of 1 gives has the code 1.
     #[must_use]
     pub fn encode(&self, light: f64) -> f64 {
-        let light = light.max(0.0);
+        let light = light.max(0.0).min(LARGEST);
         let code = match self {
             Self::Transfer(transfer) => transfer.encode(light),
             Self::Bt1886 { black } => {

@@ -32,7 +32,7 @@ fn named<T>(
 ) -> PyResult<T> {
     found.ok_or_else(|| {
         let names: Vec<_> = names.collect();
-        PyValueError::new_err(format!("There is no {what} {name:?}: known are {}.", names.join(", ")))
+        PyValueError::new_err(format!("there is no {what} {name:?}: known are {}", names.join(", ")))
     })
 }
 

@@ -26,6 +26,7 @@ from illuminant.cli import (
     diff,
     display,
     gamma,
+    gamut,
     info,
     new,
     pattern,
@@ -64,6 +65,7 @@ app.command("info", short_help="Say what was found here, or in an image.")(info.
 app.add_typer(gamma.app, name="gamma", short_help="Tables, fits and studies of a monitor's gamma.")
 app.command("pattern", short_help="Draw a test pattern for a display.")(pattern.pattern)
 app.add_typer(calibrate.app, name="calibrate", short_help="Adjust, measure and describe a display.")
+app.add_typer(gamut.app, name="gamut", short_help="Compare what becomes of colours out of gamut.")
 app.add_typer(radiosity.app, name="radiosity", short_help="Solve for light between surfaces, relight.")
 app.add_typer(spectra.app, name="spectra", short_help="List, show, plot, convert measured spectra.")
 app.add_typer(video.app, name="video", short_help="Send pictures through NTSC, and check them.")

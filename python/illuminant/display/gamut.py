@@ -30,6 +30,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from illuminant.core import core
+from illuminant.errors import UsageError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -68,6 +69,8 @@ def bring_inside(linear: ArrayLike, method: str = DEFAULT, display: str | Displa
 
     from illuminant.display import displays
 
+    if method.casefold() not in methods():
+        raise UsageError(f"There is no gamut method {method!r}: known are {', '.join(methods())}.")
     colours = np.asarray(linear, np.float64)
     if method.casefold() == "scale-image":
         finite = colours[np.isfinite(colours)]

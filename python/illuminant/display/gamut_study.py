@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["Deviation", "deviation", "gradients", "measure", "small_display", "strips", "study"]
+__all__ = ["KINDS", "Deviation", "deviation", "gradients", "measure", "small_display", "strips", "study"]
 
 KINDS = ("bright", "saturated")
 
@@ -117,21 +117,23 @@ def gradients(display: displays.Display, kind: str, hues: int = 12, steps: int =
     along = np.linspace(0.0, 2.0, steps)
     if kind == "bright":
         # The chromaticity of half the saturation at the edge, as surfaces have it.
-        colour = hsv_to_rgb(np.stack([angles, np.full(hues, 0.6), np.ones(hues)], axis=-1))
+        colour: Array = hsv_to_rgb(np.stack([angles, np.full(hues, 0.6), np.ones(hues)], axis=-1))
         return colour[:, None, :] * along[None, :, None]
-    edge = hsv_to_rgb(np.stack([angles, np.ones(hues), np.ones(hues)], axis=-1))
+    edge: Array = hsv_to_rgb(np.stack([angles, np.ones(hues), np.ones(hues)], axis=-1))
     luminance = display.to_xyz_matrix[1]
     # A luminance that this hue reaches at its edge, dimmed a little so that white is far.
     edge *= 0.8
     grey = (edge @ luminance)[:, None, None] * np.ones(3)
-    return grey + (edge[:, None, :] - grey) * along[None, :, None]
+    found: Array = grey + (edge[:, None, :] - grey) * along[None, :, None]
+    return found
 
 
 def _lab(linear: Array, display: displays.Display) -> Array:
     from illuminant import color
 
     white = display.to_xyz_matrix.sum(axis=1)
-    return color.xyz_to_lab(linear @ display.to_xyz_matrix.T, tuple(white))
+    lab: Array = color.xyz_to_lab(linear @ display.to_xyz_matrix.T, tuple(white))
+    return lab
 
 
 def _hue(linear: Array, display: displays.Display) -> tuple[Array, Array]:

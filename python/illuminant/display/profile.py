@@ -193,7 +193,8 @@ def _curve(code: Array, linear: Array) -> tuple[str, list[float]]:
         if np.abs(linear - code**gamma).max() < 1e-6:
             return "gamma", [gamma]
     for name in ("sRGB", "Rec.709"):
-        if np.abs(linear - rgb_system.linear(code, name)).max() < 1e-6:
+        formula = rgb_system.linear(np.repeat(code[:, None], 3, axis=1), name)[:, 0]
+        if np.abs(linear - formula).max() < 1e-6:
             return name, []
     # A code above the display's white (PQ has them) shows white.
     return "table", np.maximum.accumulate(np.clip(linear, 0.0, 1.0)).tolist()

@@ -7,9 +7,10 @@
 //! of an order of growth; so a pixel that is on stays on at every higher level, and there are no false contours.
 //!
 //! The order starts at the middle of the cell and goes outwards; among pixels equally far out, it takes the one
-//! farthest from the one before. For 3 × 3 it is the usual one (Foley and Van Dam 1984), which shows no lines. A
-//! cell costs resolution: either every pixel becomes a cell ([`Patterning::enlarge`]), or a cell of the image shows
-//! its mean ([`Patterning::replace`]).
+//! farthest from the one before. For 3 × 3 it is the usual one (Foley and Van Dam 1984). In 2 × 3 and 3 × 2 the
+//! middle would be a line, so they have an order of their own, in which no line is full before it must be. A
+//! cell costs resolution: either every pixel becomes a cell ([`Patterning::enlarge`]), or a cell of the image
+//! shows its mean ([`Patterning::replace`]).
 
 use super::{Code, DitherError, check, unit};
 use crate::Pixels;
@@ -43,8 +44,12 @@ impl Patterning {
                 format!("a cell of patterning has 1 to 64 pixels on a side, not {width} × {height}");
             return Err(DitherError::Tile(message));
         }
-        let turns =
-            if (width, height) == (3, 3) { vec![6, 8, 4, 1, 0, 3, 5, 2, 7] } else { growth(width, height) };
+        let turns = match (width, height) {
+            (2, 3) => vec![3, 2, 0, 4, 5, 1],
+            (3, 2) => vec![3, 0, 5, 2, 4, 1],
+            (3, 3) => vec![6, 8, 4, 1, 0, 3, 5, 2, 7],
+            _ => growth(width, height),
+        };
         Ok(Self { width, height, turns })
     }
 
@@ -244,6 +249,15 @@ mod tests {
             assert!(turns.into_iter().eq(0..width * height));
         }
         assert_eq!(Patterning::new(2, 2).unwrap().turns(), [0, 2, 3, 1]);
+        // Up to three pixels of six are in three different rows, or columns.
+        let first = |width, height| {
+            let turns = Patterning::new(width, height).unwrap().turns().to_vec();
+            (0..6).filter(move |&i| turns[i] < 3)
+        };
+        assert!(first(2, 3).map(|i| i / 2).eq(0..3));
+        let mut columns: Vec<usize> = first(3, 2).map(|i| i % 3).collect();
+        columns.sort_unstable();
+        assert_eq!(columns, [0, 1, 2]);
     }
 
     #[test]

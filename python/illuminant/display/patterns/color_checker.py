@@ -23,7 +23,7 @@ References: McCamy, Marcus and Davidson (1976), A color-rendition chart; CIE 15:
 Example:
     >>> found = patches("sRGB")
     >>> found.outside, found.names[18], found.codes[18].round(2).tolist()
-    (('cyan',), 'white 9.5', [0.96, 0.96, 0.95])
+    (('cyan',), 'white 9.5', [0.96, 0.96, 0.94])
 """
 
 from __future__ import annotations

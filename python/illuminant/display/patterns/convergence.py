@@ -31,11 +31,13 @@ def _marks(length: int, spacing: float, thickness: int) -> NDArray[np.bool_]:
     """Pixels along a side that lie on a line; one runs through the middle, and outermost lines are kept inside."""
     import numpy as np
 
+    # A line of an odd number of pixels has no middle on a side of an even number, and the other way round.
+    thickness += (length - thickness) % 2
     on = np.zeros(length, bool)
     reach = int((length - thickness) / 2 / spacing + 1e-9)
     for k in range(-reach, reach + 1):
-        first = round((length - thickness) / 2 + k * spacing)
-        on[first : first + thickness] = True
+        first = (length - thickness) // 2 + (1 if k > 0 else -1) * round(abs(k) * spacing)
+        on[max(0, first) : first + thickness] = True
     return on
 
 
