@@ -25,14 +25,14 @@ def develop(
         typer.Argument(metavar="OUT", help="Image to be written (.exr or .png).", show_default=False),
     ],
     observer: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--observer",
             metavar="WHO",
             help="Who looks: 2 or 10 degrees, or a CSV file of a camera's curves (2).",
             show_default=False,
         ),
-    ] = "2",
+    ] = None,
     matrix: Annotated[
         str,
         typer.Option(
