@@ -76,9 +76,17 @@ class Header:
     @property
     def settings(self) -> dict[str, Any]:
         """How the image was made, if the file says so."""
+        return self._object("Settings")
+
+    @property
+    def look(self) -> dict[str, Any]:
+        """How the image was shown, if the file says so."""
+        return self._object("Look")
+
+    def _object(self, keyword: str) -> dict[str, Any]:
         try:
-            found = json.loads(self.text.get("Settings", "{}"))
-        except ValueError:
+            found = json.loads(self.text.get(keyword, "{}"))
+        except (ValueError, RecursionError):
             return {}
         return found if isinstance(found, dict) else {}
 

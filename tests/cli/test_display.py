@@ -92,6 +92,18 @@ def test_dither_keeps_the_mean(exr: Path, tmp_path: Path, name: str) -> None:
     assert abs(shown(out).values[:8].mean() - shown(tmp_path / "b.png").values[:8].mean()) < 0.01
 
 
+def test_run_lengths_hold_a_picture(exr: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["display", str(exr), "--exposure", "0.01", "--display", "book NTSC"]
+    assert run([*arguments, str(tmp_path / "a.rle")]) == 0
+    assert "Run lengths take" in capsys.readouterr().err
+    assert run([*arguments, str(tmp_path / "a.png")]) == 0
+    packed = Picture.open(tmp_path / "a.rle")
+    assert (packed.codes == shown(tmp_path / "a.png").codes).all() and packed.display.gamma == 2.2
+    assert run(["display", str(tmp_path / "a.rle"), str(tmp_path / "b.png")]) == 0
+    assert run(["display", str(exr), str(tmp_path / "b.rle")]) == 2
+    assert "sRGB with 8 bits is not that" in capsys.readouterr().err
+
+
 def test_opencolorio_agrees(exr: Path, tmp_path: Path) -> None:
     grey = Image(Image.open(exr).xyz[:8])
     grey.save(tmp_path / "grey.exr")

@@ -27,7 +27,10 @@ def display(
         Path, typer.Argument(metavar="IN", help="Image (.exr), or a picture (.png).", show_default=False)
     ],
     output: Annotated[
-        Path, typer.Argument(metavar="OUT", help="Picture to be written (.png).", show_default=False)
+        Path,
+        typer.Argument(
+            metavar="OUT", help="Picture to be written (.png, or .rle for run lengths).", show_default=False
+        ),
     ],
     name: DisplayName = None,
     exposure: Exposure = None,
@@ -90,12 +93,12 @@ def display(
     from illuminant.display.gamut import DEFAULT
     from illuminant.display.look import Look
     from illuminant.display.ocio import Config
+    from illuminant.display.picture import check_name
     from illuminant.errors import UsageError
-    from illuminant.image import RELATIVE, UNIT, Image, check_output
+    from illuminant.image import RELATIVE, UNIT, Image
+    from illuminant.output import check
 
-    if output.suffix.lower() != ".png":
-        raise UsageError(f"{output}: a picture for a display is saved as .png.")
-    check_output(output)
+    check(check_name(output))
     if absolute and exposure is not None:
         raise UsageError("--absolute shows luminances as they are: it goes without --exposure.")
     config = None
@@ -144,6 +147,12 @@ def display(
         emit_json(facts)
         return
     note(f"{output}: {shown.picture.width}x{shown.picture.height}, {bits} bits, for {look.target.name}")
+    if output.suffix.lower() == ".rle":
+        from illuminant.display.run_length import compression
+
+        note(
+            f"Run lengths take {100 * (1 - compression(output.read_bytes()).reduction):.0f} % of the pixels' bytes."
+        )
     if chosen:
         note(f"White is shown as 0.8; --exposure {shown.exposure:g} repeats it.")
     if shown.outside >= 0.0005:
