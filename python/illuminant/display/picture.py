@@ -165,8 +165,8 @@ class Picture:
         gamma = self.display.gamma
         if self.bits != 8 or gamma is None:
             raise UsageError(
-                f"{path}: a run-length file has 8 bits a channel and a display whose light is a power of the code value; "
-                f"{self.display.name} with {self.bits} bits is not that (try --display 'book NTSC')."
+                f"{path}: a run-length file has 8 bits a channel, for a display whose light is a power of the code "
+                f"value; {self.display.name} with {self.bits} bits is not that (try --display 'book NTSC')."
             )
         run_length.write(
             path,
