@@ -164,6 +164,8 @@ def test_a_picture_is_mapped_to_another_display_and_told_what_it_lost(
     there = Picture.open(after)
     assert there.display.name == "Display P3" and there.text["Note"] == "kept"
     np.testing.assert_allclose(there.xyz(), Picture.open(before).xyz(), atol=1.0)
+    assert inside("display", before, back, "--display", "Display P3", "--gamut", "clamp").returncode == 0
+    np.testing.assert_array_equal(Picture.open(back).codes, there.codes)
     facts = json.loads(inside("gamma", "remap", after, back, "--to", "sRGB", "--json").stdout)
     assert facts["from"] == "Display P3" and 0.0 < facts["mean"] < 0.5
     away = np.abs(Picture.open(back).codes.astype(int) - codes)

@@ -8,8 +8,9 @@ from typing import Annotated, Any
 import typer
 
 from illuminant.cli.options import Json
+from illuminant.cli.words import numbers
 
-__all__ = ["numbers", "pattern", "pixels"]
+__all__ = ["code_values", "pattern"]
 
 
 def pattern(
@@ -127,10 +128,11 @@ def pattern(
     from illuminant.display import patterns
     from illuminant.display.patterns.screen import Screen
     from illuminant.errors import UsageError
+    from illuminant.settings import size_of
 
     given: dict[str, Any] = {
-        "color": color if color is None else numbers(color, "--color"),
-        "background": background if background is None else numbers(background, "--background"),
+        "color": color if color is None else code_values(color, "--color"),
+        "background": background if background is None else code_values(background, "--background"),
         "window": window,
         "levels": levels,
         "setup": setup,
@@ -165,7 +167,7 @@ def pattern(
     from illuminant.output import check
 
     check(path)
-    width, height = pixels(size)
+    width, height = size_of(size)
     screen = Screen(width, height, bits or patterns.PATTERNS[name].bits, display)
     if blue_only and name not in ("smpte", "eia"):
         raise UsageError(f"--blue-only is a view of smpte and eia, not of {name}.")
@@ -201,34 +203,14 @@ def _list(json: bool) -> None:
             typer.echo(f"{'':<14}{options}")
 
 
-def numbers(text: str, option: str) -> float | tuple[float, float, float]:
+def code_values(text: str, option: str) -> float | tuple[float, float, float]:
     """One code value, or three with commas between them.
 
     Raises:
         UsageError: they are not numbers from 0 to 1, or not one or three.
     """
     from illuminant.display.patterns.screen import rgb
-    from illuminant.errors import UsageError
 
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError as error:
-        raise UsageError(f"{option} {text}: expected a code value, or three such as 0.5,0.5,0.25.") from error
+    values = numbers(text, option, "a code value, or three such as 0.5,0.5,0.25", count=(1, 3))
     r, g, b = rgb(values[0] if len(values) == 1 else values, option)
     return r if len(values) == 1 else (r, g, b)
-
-
-def pixels(size: str) -> tuple[int, int]:
-    """Width and height as `1920x1080`.
-
-    Raises:
-        UsageError: they are not.
-    """
-    import re
-
-    from illuminant.errors import UsageError
-
-    found = re.fullmatch(r"(\d{1,6})x(\d{1,6})", size.strip().lower())
-    if not found:
-        raise UsageError(f"--size {size}: expected width and height in pixels, such as 1920x1080.")
-    return int(found[1]), int(found[2])

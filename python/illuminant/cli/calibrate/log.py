@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from illuminant.cli.options import Json
+from illuminant.cli.words import numbers
 
 if TYPE_CHECKING:
     from illuminant.display.calibration.record import Triple
@@ -92,12 +93,10 @@ def log(
 def _numbers(text: str | None, option: str, count: int) -> list[float]:
     from illuminant.errors import UsageError
 
-    try:
-        values = [float(part) for part in (text or "").split(",")]
-    except ValueError:
-        values = []
-    if len(values) != count or not all(0.0 <= value <= 1e5 for value in values):
-        raise UsageError(f"{option} {text}: expected {count} numbers from 0 up, with commas between them.")
+    expected = f"{count} numbers from 0 up, with commas between them"
+    values = numbers(text or "", option, expected, count=count)
+    if not all(0.0 <= value <= 1e5 for value in values):
+        raise UsageError(f"{option} {text}: expected {expected}.")
     return values
 
 

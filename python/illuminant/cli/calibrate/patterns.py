@@ -39,12 +39,12 @@ def patterns(
       illuminant calibrate patterns -o studio --size 2560x1440
       illuminant calibrate patterns -o check --verify studio.toml
     """
-    from illuminant.cli.pattern import pixels
     from illuminant.cli.report import note
     from illuminant.display.calibration import session
     from illuminant.display.patterns.screen import Screen
+    from illuminant.settings import size_of
 
-    width, height = pixels(size)
+    width, height = size_of(size)
     screen = Screen(width, height, bits)
     codes, about = None, {}
     if description is not None:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-__all__ = ["Bits", "Colour", "Gamma", "InBits", "OutBits", "Picture", "Rounding", "numbers"]
+__all__ = ["Bits", "Colour", "Gamma", "InBits", "OutBits", "Picture", "Rounding"]
 
 Gamma = Annotated[
     str,
@@ -30,21 +30,3 @@ Picture = Annotated[
     Path,
     typer.Option("-o", "--output", metavar="FILE", help="A .png or .svg.", show_default=False),
 ]
-
-
-def numbers(text: str, option: str) -> list[float]:
-    """The numbers of a list with commas.
-
-    Raises:
-        UsageError: one is no number.
-
-    Example:
-        >>> numbers("1.8,2.2", "--gammas")
-        [1.8, 2.2]
-    """
-    from illuminant.errors import UsageError
-
-    try:
-        return [float(word) for word in text.split(",")]
-    except ValueError:
-        raise UsageError(f"{option} {text}: expected numbers with commas between them.") from None

@@ -44,7 +44,8 @@ def remap(
 ) -> None:
     """Map a picture from one display to another, so that it looks the same, and say what was lost.
 
-    The loss is the colour difference from what the first display showed.
+    The loss is the colour difference from what the first display showed. The picture is that of
+    `illuminant display IN OUT --display DISPLAY --gamut clamp`, which has other ways with colours out of gamut.
 
     \b
     Example:

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from illuminant.cli.gamma.options import Bits, Colour, Gamma, Picture, numbers
+from illuminant.cli.gamma.options import Bits, Colour, Gamma, Picture
 from illuminant.cli.options import Json
+from illuminant.cli.words import numbers
 
 if TYPE_CHECKING:
     from illuminant.display.gamma.banding import Banding

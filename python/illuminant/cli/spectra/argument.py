@@ -23,7 +23,6 @@ __all__ = [
     "is_file",
     "load",
     "material_of",
-    "numbers",
     "quantity_of",
     "range_of",
 ]
@@ -134,23 +133,3 @@ def range_of(text: str | None) -> tuple[float, float] | None:
     if found and 0 < float(found[1]) < float(found[2]):
         return float(found[1]), float(found[2])
     raise UsageError(f"--range {text}: expected two increasing wavelengths in nm, such as 380-780.")
-
-
-def numbers(text: str, option: str, expected: str) -> tuple[float, float, float]:
-    """Three finite numbers with commas between them.
-
-    Example:
-        >>> numbers("445,535,630", "--matching", "three wavelengths in nm")
-        (445.0, 535.0, 630.0)
-    """
-    import math
-
-    from illuminant.errors import UsageError
-
-    try:
-        a, b, c = (float(part) for part in text.split(","))
-    except ValueError:
-        raise UsageError(f"{option} {text}: expected {expected}.") from None
-    if not all(map(math.isfinite, (a, b, c))):
-        raise UsageError(f"{option} {text}: expected {expected}.")
-    return a, b, c

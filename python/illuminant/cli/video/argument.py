@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from illuminant.cli.words import numbers
+
 if TYPE_CHECKING:
     from illuminant.display.video.standard import Bandwidth
 
@@ -38,12 +40,7 @@ def bandwidth(text: str | None) -> Bandwidth:
         illuminant.errors.UsageError: --bandwidth 4.2: expected three numbers in MHz, such as 4.2,1.3,0.5.
     """
     from illuminant.display.video.standard import BANDWIDTH, Bandwidth
-    from illuminant.errors import UsageError
 
     if text is None:
         return BANDWIDTH
-    try:
-        y, i, q = (float(part) for part in text.split(","))
-    except ValueError:
-        raise UsageError(f"--bandwidth {text}: expected three numbers in MHz, such as 4.2,1.3,0.5.") from None
-    return Bandwidth(y, i, q)
+    return Bandwidth(*numbers(text, "--bandwidth", "three numbers in MHz, such as 4.2,1.3,0.5", count=3))

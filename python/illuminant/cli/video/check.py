@@ -9,6 +9,7 @@ import typer
 
 from illuminant.cli.options import Json
 from illuminant.cli.video.argument import Bands, Picture
+from illuminant.cli.words import numbers
 
 if TYPE_CHECKING:
     import numpy as np
@@ -141,12 +142,8 @@ def check(
 
 def _limits(text: str, chroma: float | None) -> Limits:
     from illuminant.display.video.legality import Limits
-    from illuminant.errors import UsageError
 
-    try:
-        low, high = (float(part) for part in text.split(","))
-    except ValueError:
-        raise UsageError(f"--limits {text}: expected two levels in IRE, such as -20,120.") from None
+    low, high = numbers(text, "--limits", "two levels in IRE, such as -20,120", count=2)
     return Limits(low, high, chroma)
 
 

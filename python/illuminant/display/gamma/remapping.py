@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     Codes = NDArray[np.unsignedinteger[Any]]
     Float64 = NDArray[np.float64]
 
-__all__ = ["Degradation", "Loss", "Match", "degradation", "loss", "remap"]
+__all__ = ["Degradation", "Loss", "Match", "degradation", "loss", "mapped", "remap"]
 
 Match = Literal["relative", "absolute"]
 
@@ -101,8 +101,18 @@ def _values(codes: ArrayLike, bits: int) -> Float64:
     return np.asarray(array / top, np.float64)
 
 
-def _mapped(values: Float64, source: Display, target: Display, match: str) -> Float64:
-    """Linear RGB of the other display, not clamped."""
+def mapped(values: ArrayLike, source: Display, target: Display, match: str = "relative") -> Float64:
+    """Linear RGB of another display that shows what a display shows of code values, both (..., 3); not clamped.
+
+    Args:
+        values: code values 0 to 1 of `source`.
+        source: the display for which they were made.
+        target: the display that shall show them.
+        match: "relative" (white to white) or "absolute" (cd/m²).
+
+    Raises:
+        UsageError: there is no such match.
+    """
     import numpy as np
 
     if match not in ("relative", "absolute"):
@@ -142,7 +152,7 @@ def remap(
     Raises:
         UsageError: the codes are not of these bits, or an argument is not possible.
     """
-    linear = _mapped(_values(codes, bits), source, target, match)
+    linear = mapped(_values(codes, bits), source, target, match)
     beyond = ((linear < -_ROUNDING) | (linear > 1.0 + _ROUNDING)).any(axis=-1)
     shown = target.encode(linear.clip(0.0, 1.0))
     return quantised(shown, bits if out_bits is None else out_bits), float(
@@ -185,7 +195,7 @@ def degradation(
     stored, clamped = remap(
         quantised(values, bits), source, target, bits=bits, out_bits=shown_bits, match=match
     )
-    wanted = quantised(target.encode(_mapped(values, source, target, match).clip(0.0, 1.0)), shown_bits)
+    wanted = quantised(target.encode(mapped(values, source, target, match).clip(0.0, 1.0)), shown_bits)
     difference = np.asarray(
         color.delta_e_2000(_lab(wanted, shown_bits, target), _lab(stored, shown_bits, target))
     )

@@ -212,9 +212,7 @@ def band_limited(values: ArrayLike, mhz: float, *, axis: int = 1) -> Float64:
 
 
 def corrected(rgb: ArrayLike, source: str | Display, target: str | Display) -> Float64:
-    """Code values for one display as those for another, clamped to what it can show (book eq 3.3).
-
-    Both show their white as 1: luminances are not compared.
+    """Code values for one display as those for another, white to white, clamped to what it can show (book eq 3.3).
 
     Args:
         rgb: (..., 3).
@@ -227,8 +225,8 @@ def corrected(rgb: ArrayLike, source: str | Display, target: str | Display) -> F
     import numpy as np
 
     from illuminant.display.displays import named
+    from illuminant.display.gamma.remapping import mapped
 
-    one, other = named(source), named(target)
-    xyz = one.decode(rgb) @ np.asarray(one.to_xyz_matrix).T
-    linear = np.clip(xyz @ np.asarray(other.from_xyz_matrix).T, 0.0, 1.0)
-    return np.asarray(np.clip(other.encode(linear), 0.0, 1.0))
+    other = named(target)
+    linear = mapped(rgb, named(source), other)
+    return np.asarray(np.clip(other.encode(np.clip(linear, 0.0, 1.0)), 0.0, 1.0))
