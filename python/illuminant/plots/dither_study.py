@@ -152,8 +152,8 @@ def spectra(names: Sequence[str], bits: int = 8, part: float | None = None) -> F
         UsageError: there is no such dither, or a number is not possible.
 
     Example:
-        >>> spectra(["random", "blue-noise"]).axes[0].get_ylim()
-        (0.001, 100.0)
+        >>> spectra(["random", "blue-noise"]).axes[0].get_yscale()
+        'log'
     """
     import numpy as np
 
