@@ -44,6 +44,9 @@ __all__ = ["LARGEST_HALF", "XYZ", "Contents", "fits_half", "read", "write"]
 LARGEST_HALF = 65504.0
 """The largest finite half float."""
 
+LARGEST = 1 << 31
+"""Values (pixels times channels) of the largest file that is read."""
+
 MAGIC = b"\x76\x2f\x31\x01"
 """The first four bytes of every EXR file."""
 
@@ -230,6 +233,9 @@ def read(path: str | Path) -> Contents:
         raise ImageError(f"{path} cannot be read: {reason}.")
     try:
         spec = file.spec()
+        values = spec.width * spec.height * spec.nchannels
+        if not 0 < values <= LARGEST:
+            raise ImageError(f"{path} has {values:,} values: 1 to {LARGEST:,} are read.")
         pixels = file.read_image(oiio.FLOAT)
         if pixels is None:
             raise ImageError(f"{path} cannot be read: {' '.join(file.geterror().split()).rstrip('.')}.")

@@ -308,7 +308,7 @@ class Image:
             raise ImageError(f"{path} cannot be read: it is a folder.")
         if not path.is_file():
             raise ImageError(f"{path} cannot be read: there is no such file.")
-        if path.suffix.lower() == ".png":
+        if path.suffix.lower() in (".png", ".rle"):
             from illuminant.display.picture import Picture
 
             picture = Picture.open(path, assume)
@@ -316,7 +316,7 @@ class Image:
             return cls(xyz, unit=RELATIVE, settings=picture.settings, exposure=1.0)
         if path.suffix.lower() == ".exr":
             return cls._open_exr(path, assume)
-        raise ImageError(f"{path} cannot be read: only .exr and .png are.")
+        raise ImageError(f"{path} cannot be read: only .exr, .png and .rle are.")
 
     @classmethod
     def _open_exr(cls, path: Path, assume: str | Display | None) -> Image:

@@ -120,7 +120,8 @@ def _png_facts(path: Path) -> dict[str, Any]:
         facts["unit"] = f"1 is {1 / exposure:.6g} {unit}"
         facts["exposure"] = exposure
     facts["settings"] = header.settings
-    facts["remake"] = remake(header.settings, path, facts.get("exposure"))
+    facts["look"] = header.look
+    facts["remake"] = remake(header.settings, path, facts.get("exposure"), header.look)
     return facts
 
 
@@ -154,8 +155,16 @@ def _exr_facts(path: Path) -> dict[str, Any]:
     return facts
 
 
-def remake(settings: dict[str, Any], path: Path, exposure: float | None) -> str | None:
+def remake(
+    settings: dict[str, Any], path: Path, exposure: float | None, look: dict[str, Any] | None = None
+) -> str | None:
     """The command that makes an image again; None when its header does not say enough.
+
+    Args:
+        settings: of the render.
+        path: of the image.
+        exposure: of a PNG.
+        look: how a PNG was shown; what is the default is left out.
 
     Example:
         >>> from pathlib import Path
@@ -178,4 +187,10 @@ def remake(settings: dict[str, Any], path: Path, exposure: float | None) -> str 
             words += [f"--{key.replace('_', '-')}", str(settings[key])]
     if exposure is not None:
         words += ["--exposure", f"{exposure:g}"]
+    from illuminant.display.gamut import DEFAULT
+
+    usual = {"display": "sRGB", "tone": "none", "gamut": DEFAULT, "dither": "none", "bits": 8}
+    for key, default in usual.items():
+        if look and look.get(key, default) != default:
+            words += [f"--{key}", str(look[key])]
     return shlex.join(words)

@@ -49,6 +49,9 @@ _OTHER_CICP = {
     (9, 15): "Rec.2020",
 }
 
+LARGEST = 1 << 28
+"""Pixels of the largest image that is read."""
+
 LARGEST_PROFILE = 1 << 24
 """Bytes of the largest ICC profile that is read from a PNG."""
 
@@ -73,9 +76,17 @@ class Header:
     @property
     def settings(self) -> dict[str, Any]:
         """How the image was made, if the file says so."""
+        return self._object("Settings")
+
+    @property
+    def look(self) -> dict[str, Any]:
+        """How the image was shown, if the file says so."""
+        return self._object("Look")
+
+    def _object(self, keyword: str) -> dict[str, Any]:
         try:
-            found = json.loads(self.text.get("Settings", "{}"))
-        except ValueError:
+            found = json.loads(self.text.get(keyword, "{}"))
+        except (ValueError, RecursionError):
             return {}
         return found if isinstance(found, dict) else {}
 
@@ -196,6 +207,8 @@ def read_header(path: str | os.PathLike[str]) -> Header:
         display = _stated(text, found)
     except (ValueError, IndexError, struct.error, zlib.error) as error:
         raise ImageError(f"{path} is not a whole PNG: {error}.") from error
+    if not 0 < width * height <= LARGEST:
+        raise ImageError(f"{path} has {width} × {height} pixels: 1 to {LARGEST:,} are read.")
     return Header(width, height, bits if 0 < bits <= depth else depth, display, text)
 
 

@@ -118,7 +118,7 @@ def test_info_says_how_it_was_developed(folder: Path, capsys: pytest.CaptureFixt
         (["--observer", "20"], "--observer 20: there is no such observer"),
         (["--observer", "none.csv"], "none.csv"),
         (["--regular", "99"], "--regular 99: expected a step"),
-        (["--bits", "9"], "--bits 9"),
+        (["--bits", "99"], "99"),
         (["--exposure", "-1"], "positive number"),
         (["--rgb", "none"], "none"),
     ],

@@ -6,7 +6,7 @@
 //! light E and γ = 1.2 + 0.42 log₁₀(peak / 1000).
 
 use crate::Response;
-use crate::response::LARGEST;
+use crate::response::{LARGEST, between};
 use illuminant_color::{RgbSystem, Triple};
 use thiserror::Error;
 
@@ -122,7 +122,7 @@ impl Display {
     pub(crate) fn before_ootf(&self, light: Triple) -> Triple {
         match self.ootf_gamma() {
             Some(gamma) => {
-                let light = light.map(|v| v.max(0.0).min(LARGEST));
+                let light = light.map(|v| between(v, LARGEST));
                 let luminance = self.luminance(light);
                 light.map(|v| if luminance > 0.0 { v * luminance.powf((1.0 - gamma) / gamma) } else { 0.0 })
             }

@@ -40,7 +40,9 @@ impl EncodingTable {
     #[must_use]
     #[inline(always)]
     pub fn encode(&self, light: f32) -> f32 {
-        let clamped = light.max(LOWEST).min(1.0);
+        // As comparisons, these take NaN to the lower end.
+        let above = if light > LOWEST { light } else { LOWEST };
+        let clamped = if above < 1.0 { above } else { 1.0 };
         let bits = clamped.to_bits() - LOWEST.to_bits();
         let place = (bits >> SHIFT) as usize;
         let part = (bits & ((1 << SHIFT) - 1)) as f32 * (1.0 / (1u32 << SHIFT) as f32);

@@ -46,6 +46,11 @@ pub enum Response {
     Table(Vec<f64>),
 }
 
+/// The nearest number from 0 to `top`; NaN becomes 0.
+pub(crate) fn between(v: f64, top: f64) -> f64 {
+    if v > 0.0 { v.min(top) } else { 0.0 }
+}
+
 const M1: f64 = 2610.0 / 16384.0;
 const M2: f64 = 2523.0 / 4096.0 * 128.0;
 const C1: f64 = 3424.0 / 4096.0;
@@ -95,7 +100,7 @@ impl Response {
     /// ```
     #[must_use]
     pub fn decode(&self, code: f64) -> f64 {
-        let code = code.max(0.0).min(1.0);
+        let code = between(code, 1.0);
         match self {
             Self::Transfer(transfer) => transfer.decode(code),
             Self::Bt1886 { black } => {
@@ -126,7 +131,7 @@ impl Response {
     /// Light below 0, and NaN, is taken as 0; light above what a code value of 1 gives has the code 1.
     #[must_use]
     pub fn encode(&self, light: f64) -> f64 {
-        let light = light.max(0.0).min(LARGEST);
+        let light = between(light, LARGEST);
         let code = match self {
             Self::Transfer(transfer) => transfer.encode(light),
             Self::Bt1886 { black } => {

@@ -25,14 +25,14 @@ def develop(
         typer.Argument(metavar="OUT", help="Image to be written (.exr or .png).", show_default=False),
     ],
     observer: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--observer",
             metavar="WHO",
             help="Who looks: 2 or 10 degrees, or a CSV file of a camera's curves (2).",
             show_default=False,
         ),
-    ] = "2",
+    ] = None,
     matrix: Annotated[
         str,
         typer.Option(
@@ -116,7 +116,7 @@ def develop(
     check_output(output)
     if regular is not None and output.suffix.lower() != ".exr":
         raise UsageError(f"--regular {regular:g}: a PNG holds no spectra; name an .exr to be written.")
-    look = Look(display, exposure, transfer, tone, gamut or DEFAULT, dither, bits)
+    look = Look(display or "sRGB", exposure, transfer, tone, gamut or DEFAULT, dither, bits)
     source = Image.open(image)
     names = developing.lamps_of(source)
     lamps = dict(_pair("--lamp", word, names) for word in lamp or [])

@@ -27,9 +27,12 @@ def display(
         Path, typer.Argument(metavar="IN", help="Image (.exr), or a picture (.png).", show_default=False)
     ],
     output: Annotated[
-        Path, typer.Argument(metavar="OUT", help="Picture to be written (.png).", show_default=False)
+        Path,
+        typer.Argument(
+            metavar="OUT", help="Picture to be written (.png, or .rle for run lengths).", show_default=False
+        ),
     ],
-    name: DisplayName = "sRGB",
+    name: DisplayName = None,
     exposure: Exposure = None,
     absolute: Annotated[
         bool,
@@ -54,6 +57,21 @@ def display(
             show_default=False,
         ),
     ] = "ideal",
+    ocio: Annotated[
+        str | None,
+        typer.Option(
+            "--ocio",
+            metavar="CONFIG",
+            help="OpenColorIO config that goes from scene to display, in place of --tone, --gamut and --transfer.",
+            show_default=False,
+        ),
+    ] = None,
+    ocio_display: Annotated[
+        str | None, typer.Option("--ocio-display", metavar="NAME", help="Display of the config (its first).")
+    ] = None,
+    view: Annotated[
+        str | None, typer.Option("--view", metavar="NAME", help="View of that display (its first).")
+    ] = None,
     assume: Assume = None,
     json: Json = False,
 ) -> None:
@@ -68,18 +86,36 @@ def display(
       illuminant display room.exr room.png --gamut clamp --dither blue-noise
       illuminant display left.png right.png --display monitor.toml
     """
+    from dataclasses import replace
+
     from illuminant.cli.report import emit_json, note
+    from illuminant.display.dither import quantise
     from illuminant.display.gamut import DEFAULT
     from illuminant.display.look import Look
+    from illuminant.display.ocio import Config
+    from illuminant.display.picture import check_name
     from illuminant.errors import UsageError
-    from illuminant.image import RELATIVE, UNIT, Image, check_output
+    from illuminant.image import RELATIVE, UNIT, Image
+    from illuminant.output import check
 
-    if output.suffix.lower() != ".png":
-        raise UsageError(f"{output}: a picture for a display is saved as .png.")
-    check_output(output)
+    check(check_name(output))
     if absolute and exposure is not None:
         raise UsageError("--absolute shows luminances as they are: it goes without --exposure.")
-    look = Look(name, exposure, transfer, tone, gamut or DEFAULT, dither, bits, seed, pipeline)
+    config = None
+    if ocio is not None:
+        if transfer or gamut or tone != "none" or pipeline != "ideal":
+            raise UsageError(f"--ocio {ocio}: goes without --transfer, --tone, --gamut and --pipeline.")
+        config = Config(ocio)
+        ocio_display, view = config.chosen(ocio_display, view)
+        found = config.described(ocio_display, view)
+        if name is None and found is None:
+            raise UsageError(
+                f"--ocio-display {ocio_display}: say what it is with --display (a name, .toml or .icc)."
+            )
+        name = name or (found.name if found else None)
+    elif ocio_display or view:
+        raise UsageError("--ocio-display and --view go with --ocio.")
+    look = Look(name or "sRGB", exposure, transfer, tone, gamut or DEFAULT, dither, bits, seed, pipeline)
     opened = Image.open(image, assume)
     chosen = False
     if absolute:
@@ -91,6 +127,11 @@ def display(
     elif exposure is None and opened.exposure is None:
         exposure, chosen = opened.auto_exposure(), True
     shown = opened.shown(look, exposure=exposure)
+    if config is not None and ocio_display and view:
+        values = config.values(opened.xyz, shown.exposure, ocio_display, view)
+        codes = quantise(values, bits, dither, seed)
+        shown = replace(shown, picture=replace(shown.picture, codes=codes), negative=0.0, above=0.0)
+        shown.picture.text["OpenColorIO"] = f"{ocio}: {ocio_display}, {view}"
     shown.picture.save(output)
     facts = {
         "file": output,
@@ -106,6 +147,12 @@ def display(
         emit_json(facts)
         return
     note(f"{output}: {shown.picture.width}x{shown.picture.height}, {bits} bits, for {look.target.name}")
+    if output.suffix.lower() == ".rle":
+        from illuminant.display.run_length import compression
+
+        note(
+            f"Run lengths take {100 * (1 - compression(output.read_bytes()).reduction):.0f} % of the pixels' bytes."
+        )
     if chosen:
         note(f"White is shown as 0.8; --exposure {shown.exposure:g} repeats it.")
     if shown.outside >= 0.0005:

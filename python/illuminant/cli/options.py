@@ -40,7 +40,7 @@ Exposure = Annotated[
 ]
 
 DisplayName = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--display",
         metavar="NAME",

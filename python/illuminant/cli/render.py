@@ -286,7 +286,7 @@ def render(
             help="RGB system of an EXR, for programs that know no XYZ: sRGB, 'ACES AP1', ... (XYZ).",
         ),
     ] = None,
-    display: DisplayName = "sRGB",
+    display: DisplayName = None,
     transfer: Transfer = None,
     tone: ToneName = "none",
     gamut: GamutName = None,
@@ -444,7 +444,7 @@ def _save(image: Image, path: Path, *, half: bool, **look: Any) -> Saved:
 
 def _look(
     exposure: float | None,
-    display: str,
+    display: str | None,
     transfer: str | None,
     tone: str,
     gamut: str | None,
@@ -456,7 +456,7 @@ def _look(
     from illuminant.display.gamut import DEFAULT
     from illuminant.display.look import Look
 
-    return Look(display, exposure, transfer, tone, gamut or DEFAULT, dither, bits, seed)
+    return Look(display or "sRGB", exposure, transfer, tone, gamut or DEFAULT, dither, bits, seed)
 
 
 class _Stop:

@@ -41,7 +41,7 @@ from typing import TYPE_CHECKING, Any
 
 from illuminant.display import regular_spectra
 from illuminant.display.lane_weights import ALL, AT_WAVELENGTHS, DARK, LaneWeights
-from illuminant.display.observer import LUMINOUS_EFFICACY, STANDARD, Observer, named
+from illuminant.display.observer import LUMINOUS_EFFICACY, SHORT, STANDARD, Observer, named
 from illuminant.errors import ImageError, UsageError
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def lamps_of(image: Image) -> list[str]:
 def develop(
     image: Image | str | os.PathLike[str],
     *,
-    observer: str = "2",
+    observer: str | None = None,
     matrix: str = "fit",
     lamps: Mapping[str, str | Spectrum] | None = None,
     power: Mapping[str, float] | None = None,
@@ -95,7 +95,7 @@ def develop(
 
     Args:
         image: an image, or the path of one.
-        observer: `2`, `10`, another of the core's observers, or a CSV file of a camera's curves.
+        observer: `2`, `10`, another of the core's observers, or a CSV file of a camera's curves; None leaves it.
         matrix: of a camera: `fit`, `balance` or a CSV file (`illuminant.display.observer`).
         lamps: new spectra by lamp: names of the library, `2856K`, files, or spectra.
         power: factors by lamp; 0 switches one off.
@@ -126,7 +126,9 @@ def develop(
         if not (0 <= factor <= MOST_POWER):
             raise UsageError(f"--power {lamp}={factor:g}: expected a factor from 0 up, such as 0.5.")
     power = {lamp: factor for lamp, factor in power.items() if factor != 1.0}
-    anew = bool(lamps) or regular is not None or observer not in ("2", STANDARD)
+    before = _seen_by(image)
+    observer = observer or before
+    anew = bool(lamps) or regular is not None or SHORT.get(observer, observer) != before
     if not anew:
         return _with_powers(image, groups, power) if power else copy.copy(image)
     basis = _basis(name, image)
@@ -238,6 +240,15 @@ def _with_powers(image: Image, groups: dict[str, _Group], power: Mapping[str, fl
         to_xyz=image.to_xyz if kept else None,
         basis=basis if kept else None,
     )
+
+
+def _seen_by(image: Image) -> str:
+    """The observer whose XYZ an image holds."""
+    stages = image.settings.get("developed")
+    seen = (
+        [how.get("observer") for how in stages if isinstance(how, dict)] if isinstance(stages, list) else []
+    )
+    return str(next((name for name in reversed(seen) if name), STANDARD))
 
 
 def _told(image: Image, how: dict[str, Any]) -> dict[str, Any]:

@@ -4,8 +4,8 @@ Gradients lead through the gamut of a small display, whose primaries and white l
 that shows the figure, so that a control strip with the right colours can stand beside the clipped ones. They are of two
 kinds (book 5.1.3):
 
-- *bright*: from black through a colour of the gamut to twice its brightest, at constant chromaticity;
-- *saturated*: from grey to twice the saturation at the gamut's edge, at constant luminance, hue by hue.
+- *bright*: from black through a colour of the small gamut to the brightness of the large one, at constant chromaticity;
+- *saturated*: from grey to the edge of the large gamut, at constant luminance.
 
 For each method, with Δ between the colour asked for and the one shown, both seen beside the display's white:
 
@@ -97,34 +97,39 @@ def small_display(
     )
 
 
-def gradients(display: displays.Display, kind: str, hues: int = 12, steps: int = 257) -> Array:
-    """Gradients that lead out of a display's gamut.
+def gradients(
+    display: displays.Display, outer: displays.Display, kind: str, hues: int = 12, steps: int = 257
+) -> Array:
+    """Gradients that lead out of a display's gamut and stay in that of another.
 
     Args:
         display: the one whose gamut they leave.
+        outer: the one that can show them whole.
         kind: `bright` or `saturated`.
         hues: how many, at equal steps of hue in HSV.
         steps: colours of a gradient.
 
     Returns:
-        (hues, steps, 3), linear RGB of the display; half of each gradient is inside or nearly so.
+        (hues, steps, 3), linear RGB of the display that they leave.
     """
     import numpy as np
 
     from illuminant.color import hsv_to_rgb
 
     angles = np.arange(hues) / hues * 360.0
-    along = np.linspace(0.0, 2.0, steps)
     if kind == "bright":
-        # The chromaticity of half the saturation at the edge, as surfaces have it.
+        # More than half of the saturation at the edge, as surfaces have it.
         colour: Array = hsv_to_rgb(np.stack([angles, np.full(hues, 0.6), np.ones(hues)], axis=-1))
+        along = np.linspace(0.0, outer.peak / display.peak, steps)
         return colour[:, None, :] * along[None, :, None]
     edge: Array = hsv_to_rgb(np.stack([angles, np.ones(hues), np.ones(hues)], axis=-1))
-    luminance = display.to_xyz_matrix[1]
-    # A luminance that this hue reaches at its edge, dimmed a little so that white is far.
-    edge *= 0.8
-    grey = (edge @ luminance)[:, None, None] * np.ones(3)
-    found: Array = grey + (edge[:, None, :] - grey) * along[None, :, None]
+    # Dimmed so that the grey is no brighter than three quarters of the white of the gamut that is left.
+    luminance = edge @ outer.to_xyz_matrix[1]
+    edge *= np.minimum(0.75 * display.peak / outer.peak / luminance, 1.0)[:, None]
+    grey = (edge @ outer.to_xyz_matrix[1])[:, None, None] * np.ones(3)
+    along = np.linspace(0.0, 1.0, steps)
+    shown = grey + (edge[:, None, :] - grey) * along[None, :, None]
+    found: Array = shown @ (outer.peak / display.peak * outer.to_xyz_matrix.T) @ display.from_xyz_matrix.T
     return found
 
 
@@ -171,8 +176,8 @@ def _kink(linear: Array, display: displays.Display) -> Array:
     import numpy as np
 
     lab = _lab(linear, display)
-    # Over four steps a kink of bisection's last bit does not count.
-    reach = 4
+    # Over a sixty-fourth of the gradient the last bits of a bisection do not count.
+    reach = max(1, linear.shape[1] // 64)
     slope = (lab[:, reach:] - lab[:, :-reach]) * ((linear.shape[1] - 1) / reach)
     jumps = np.linalg.norm(slope[:, reach:] - slope[:, :-reach], axis=-1)
     start = jumps.shape[1] // 8  # L* has a kink of its own near black
@@ -232,7 +237,9 @@ def study(
     grid = grid @ wide.to_xyz_matrix.T @ display.from_xyz_matrix.T
     found: dict[str, dict[str, Deviation]] = {}
     for method in methods or gamut.methods():
-        found[method] = {kind: measure(gradients(small, kind, hues, steps), method, small) for kind in KINDS}
+        found[method] = {
+            kind: measure(gradients(small, display, kind, hues, steps), method, small) for kind in KINDS
+        }
         found[method]["wide"] = measure(grid, method, display)
     return found
 
@@ -255,7 +262,7 @@ def strips(methods: Sequence[str] | None = None, hues: int = 6, width: int = 768
     small = small_display(outer)
     rows = []
     for kind in KINDS:
-        for gradient in gradients(small, kind, hues, width):
+        for gradient in gradients(small, outer, kind, hues, width):
             asked = gradient[None]
             group = [
                 asked,

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["LUMINOUS_EFFICACY", "STANDARD", "Observer", "named", "standard"]
+__all__ = ["LUMINOUS_EFFICACY", "SHORT", "STANDARD", "Observer", "named", "standard"]
 
 LUMINOUS_EFFICACY = 683.0
 """K_m in lm/W."""
@@ -46,7 +46,8 @@ LUMINOUS_EFFICACY = 683.0
 STANDARD = "CIE 1931 2°"
 """The observer by which images are rendered."""
 
-_SHORT = {"2": STANDARD, "10": "CIE 1964 10°"}
+SHORT = {"2": STANDARD, "10": "CIE 1964 10°"}
+"""Observers by their degrees."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,12 +85,12 @@ def named(word: str, nm: Array, light: Array, matrix: str = "fit") -> Observer:
         UsageError: there is no such observer, or the matrix cannot be.
         DataError: a file is damaged, or has not the columns that it should.
     """
-    name = _SHORT.get(word, word)
+    name = SHORT.get(word, word)
     if name in core().observers():
         return standard(nm, name)
     path = Path(word).expanduser()
     if not path.is_file() and path.suffix.lower() not in (".csv", ".txt", ".tsv"):
-        known = ", ".join([*_SHORT, *core().observers()])
+        known = ", ".join([*SHORT, *core().observers()])
         raise UsageError(
             f"--observer {word}: there is no such observer; known are {known}, or a CSV file of a camera's curves."
         )

@@ -43,7 +43,9 @@ if TYPE_CHECKING:
     Codes = NDArray[np.uint8] | NDArray[np.uint16]
     Array = NDArray[np.float64]
 
-__all__ = ["Picture"]
+__all__ = ["EXTENSIONS", "Picture", "check_bits", "check_name"]
+
+EXTENSIONS = (".png", ".rle")
 
 
 @dataclass
@@ -138,25 +140,45 @@ class Picture:
         return png.encode(self.codes, self.bits, self.display, self.text)
 
     def save(self, path: str | os.PathLike[str], text: dict[str, str] | None = None) -> None:
-        """Write the PNG file, whole or not at all.
+        """Write the file, whole or not at all.
 
         Args:
-            path: ends with `.png`.
-            text: text chunks to be added to the picture's own.
+            path: ends with `.png`, or with `.rle` for a run-length encoded image (`illuminant.display.run_length`).
+            text: text chunks to be added to the picture's own; a run-length file has none.
 
         Raises:
-            UsageError: the name does not end with `.png`.
+            UsageError: the name ends otherwise, or a run-length file cannot hold this picture.
             ImageError, MachineError: as `illuminant.output.write_bytes`.
         """
-        path = Path(path)
-        if path.suffix.lower() != ".png":
-            raise UsageError(f"{path}: a picture is saved as .png.")
+        path = check_name(path)
+        if path.suffix.lower() == ".rle":
+            self._save_run_length(path)
+            return
         self.text |= text or {}
         output.write_bytes(path, self.encode())
 
+    def _save_run_length(self, path: Path) -> None:
+        import numpy as np
+
+        from illuminant.display import run_length
+
+        gamma = self.display.gamma
+        if self.bits != 8 or gamma is None:
+            raise UsageError(
+                f"{path}: a run-length file has 8 bits a channel, for a display whose light is a power of the code "
+                f"value; {self.display.name} with {self.bits} bits is not that (try --display 'book NTSC')."
+            )
+        run_length.write(
+            path,
+            np.asarray(self.codes, np.uint8),
+            primaries=self.display.primaries,
+            white=self.display.white,
+            gamma=None if gamma == 1.0 else gamma,
+        )
+
     @classmethod
     def open(cls, path: str | os.PathLike[str], assume: str | displays.Display | None = None) -> Picture:
-        """Open a PNG file, made here or elsewhere.
+        """Open a PNG file, made here or elsewhere, or a run-length file.
 
         Args:
             path: the file.
@@ -165,6 +187,8 @@ class Picture:
         Raises:
             ImageError: the file is not there, is no whole PNG, or does not say which display it is for.
         """
+        if Path(path).suffix.lower() == ".rle":
+            return cls._open_run_length(path)
         from illuminant import png
 
         codes, bits, header = png.decode(path)
@@ -176,6 +200,15 @@ class Picture:
                 )
             display = displays.named(assume)
         return cls(codes, display, bits, header.text)
+
+    @classmethod
+    def _open_run_length(cls, path: str | os.PathLike[str]) -> Picture:
+        from illuminant.display import run_length
+
+        found = run_length.read(path)
+        red, green, blue = found.primaries
+        response = "linear" if found.gamma is None else f"gamma {found.gamma:.9g}"
+        return cls(found.rgb, displays.Display("run-length", (red, green, blue), found.white, response))
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -189,6 +222,18 @@ class Picture:
     def _repr_png_(self) -> bytes:
         """The picture as a PNG, which notebooks show."""
         return self.encode()
+
+
+def check_name(path: str | os.PathLike[str]) -> Path:
+    """Refuse a name that no picture has.
+
+    Raises:
+        UsageError: it ends neither with `.png` nor with `.rle`.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in EXTENSIONS:
+        raise UsageError(f"{path}: a picture for a display is saved as .png, or .rle for run lengths.")
+    return path
 
 
 def check_bits(bits: int) -> None:

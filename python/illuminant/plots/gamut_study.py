@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -19,15 +20,17 @@ __all__ = ["save_deviation", "save_paths"]
 COLOURS = ("orange", "yellow-green", "blue", "rose")
 """What the gradients of the figures are called, by their hue."""
 
+_DASHES = ("-", (0, (5, 2)), (0, (2, 1.5)), "-.", (0, (1, 1)))
+
 _HUES = (30.0, 80.0, 235.0, 340.0)
 
 
 def _gradients(kind: str, steps: int) -> Array:
     """The gradients of the figures, (4, steps, 3), linear RGB of the small display."""
-    from illuminant.display import gamut_study
+    from illuminant.display import displays, gamut_study
 
     small = gamut_study.small_display()
-    every = gamut_study.gradients(small, kind, hues=72, steps=steps)
+    every = gamut_study.gradients(small, displays.named("sRGB"), kind, hues=72, steps=steps)
     return every[[round(hue / 5.0) for hue in _HUES]]
 
 
@@ -49,7 +52,7 @@ def save_paths(methods: Sequence[str], path: str | os.PathLike[str]) -> None:
     columns = min(len(methods), 3)
     rows = -(-len(methods) // columns)
     with styled():
-        figure, first = new_figure((3.3 * columns, 3.4 * rows))
+        figure, first = new_figure((3.3 * columns, 3.1 * rows))
         first.remove()
         for number, method in enumerate(methods, start=1):
             axes = figure.add_subplot(rows, columns, number, projection="3d")
@@ -57,7 +60,7 @@ def save_paths(methods: Sequence[str], path: str | os.PathLike[str]) -> None:
             for line in lines:
                 inside = gamut.bring_inside(line, method, small)
                 colour = np.clip(inside[len(line) // 2], 0.0, 1.0) ** (1 / 2.2)
-                shown = line[(line > -0.35).all(axis=1) & (line < 1.6).all(axis=1)]
+                shown = line[(line > -0.4).all(axis=1) & (line < 1.5).all(axis=1)]
                 axes.plot(*shown.T, color="0.6", linewidth=0.8, linestyle=":")
                 axes.plot(*inside.T, color=colour, linewidth=1.8)
             axes.set_title(method)
@@ -69,7 +72,7 @@ def save_paths(methods: Sequence[str], path: str | os.PathLike[str]) -> None:
             axes.set_zticks([0, 1], ["0", "1"])
             axes.tick_params(pad=-3)
             axes.view_init(elev=24, azim=-60)
-            axes.set_box_aspect((1, 1, 1), zoom=0.9)
+            axes.set_box_aspect((1, 1, 1), zoom=1.0)
         save(figure, path)
 
 
@@ -101,21 +104,27 @@ def save_deviation(methods: Sequence[str], measure: str, path: str | os.PathLike
 
     small = gamut_study.small_display()
     steps = 513
-    along = np.linspace(0.0, 2.0, steps)
+    along = np.linspace(0.0, 1.0, steps)
     with styled():
         figure, first = new_figure((10.0, 5.4))
         first.remove()
         panels = figure.subplots(2, len(_HUES), sharex=True, sharey="row")
         for row, kind in zip(panels, gamut_study.KINDS, strict=True):
             for axes, name, line in zip(row, COLOURS, _gradients(kind, steps), strict=True):
-                for method in methods:
+                for method, dashes in zip(methods, itertools.cycle(_DASHES), strict=False):
                     shown = gamut.bring_inside(line, method, small)
                     delta_e, lab = gamut_study.deviation(line, shown, small)
-                    axes.plot(along, lab if measure == "lab" else delta_e, label=method, linewidth=1.3)
+                    axes.plot(
+                        along,
+                        lab if measure == "lab" else delta_e,
+                        label=method,
+                        linewidth=1.4,
+                        linestyle=dashes,
+                    )
                 axes.set_title(f"{name}, {'brighter' if kind == 'bright' else 'more saturated'}", fontsize=9)
-                axes.set_xlim(0.0, 2.0)
+                axes.set_xlim(0.0, 1.0)
         for axes in panels[1]:
-            axes.set_xlabel("of the gamut's edge")
+            axes.set_xlabel("along the gradient")
         for axes in panels[:, 0]:
             axes.set_ylabel("ΔE*ab" if measure == "lab" else "ΔE00")
         panels[0, 0].legend(fontsize=7, loc="upper left")
