@@ -54,12 +54,12 @@ def _named(names: str | None, default: Any) -> list[str]:
 
 
 def _opened(image: Path, assume: str | None, exposure: float | None) -> Picture:
-    """A picture of sRGB with 16 bits, from an image or a picture."""
+    """The picture, or the image as a picture for sRGB."""
     from illuminant.display.look import Look
-    from illuminant.display.picture import Picture
+    from illuminant.display.picture import EXTENSIONS, Picture
     from illuminant.image import Image
 
-    if image.suffix.lower() == ".png" and exposure is None:
+    if image.suffix.lower() in EXTENSIONS and exposure is None:
         return Picture.open(image, assume)
     return Image.open(image, assume).shown(Look(bits=16), exposure=exposure).picture
 
@@ -112,6 +112,15 @@ def compare(
     enlarge: Annotated[
         int, typer.Option("--enlarge", metavar="N", help="Each pixel as N x N, to look at it.")
     ] = 1,
+    columns: Annotated[
+        int | None,
+        typer.Option(
+            "--columns",
+            metavar="N",
+            help="How many stand side by side (1; of an image, up to 1600 pixels).",
+            show_default=False,
+        ),
+    ] = None,
     mean: Mean = None,
     grey: Grey = False,
     bare: Annotated[bool, typer.Option("--bare", help="Without labels and gaps.")] = False,
@@ -146,24 +155,24 @@ def compare(
         raise UsageError(f"--bits {depth}: a comparison has 1 to 8 bits, as many as its file.")
     if not 1 <= enlarge <= 32:
         raise UsageError(f"--enlarge {enlarge}: expected 1 to 32.")
+    if columns is not None and columns < 1:
+        raise UsageError(f"--columns {columns}: expected 1 or more.")
     if image is None:
         codes = dither_study.comparison(names, depth, width, band, mean=mean or "codes")
         parts: list[Any] = np.split(np.repeat(codes[..., None], 3, axis=-1), len(names))
-        display, columns = displays.named("sRGB"), 1
+        display, fitting = displays.named("sRGB"), 1
     else:
         picture = _opened(image, assume, exposure)
         parts = [
             patterning.halftone(picture, name, depth, grey=grey, mean=mean or "light").codes for name in names
         ]
-        display, columns = (
-            picture.display,
-            min(len(names), max(1, round(1600 / (parts[0].shape[1] * enlarge)))),
-        )
+        display, fitting = picture.display, 1600 // (parts[0].shape[1] * enlarge)
+    beside = min(len(names), max(1, fitting) if columns is None else columns)
     top = (1 << depth) - 1
     # Spread over the file's 8 bits; halves go up.
     shown = [((2 * 255 * part.astype(np.uint32) + top) // (2 * top)).astype(np.uint8) for part in parts]
     shown = [part.repeat(enlarge, axis=0).repeat(enlarge, axis=1) for part in shown]
-    sheet = _bare(shown, columns) if bare else labelled(shown, names, columns=columns)
+    sheet = _bare(shown, beside) if bare else labelled(shown, names, columns=beside)
     Picture(sheet, display, 8).save(
         output, {"Description": f"dithers at {depth} bits a channel: {', '.join(names)}"}
     )
