@@ -120,6 +120,8 @@ def test_mistakes_are_sentences(inside: Command, photograph: Path, tmp_path: Pat
         (("compare", *out, "--bits", 9), "1 to 8 bits"),
         (("compare", *out, "--width", 0), "2 to 16,384"),
         (("compare", *out, "--enlarge", 0), "1 to 32"),
+        (("compare", *out, "--columns", 0), "1 or more"),
+        (("compare", *out, "--band", 1000, "--enlarge", 32), "megapixels"),
         (("compare", *out, "--mean", "dark"), "light or of codes"),
         (("compare", tmp_path / "no.png", *out), "no such file|cannot be read"),
         (("halftone", photograph, tmp_path / "h.jpg"), "saved as .png"),

@@ -16,6 +16,8 @@ __all__ = ["app"]
 
 app = typer.Typer(no_args_is_help=True)
 
+_MOST_PIXELS = 200_000_000
+
 Output = Annotated[
     Path, typer.Option("-o", "--output", metavar="FILE", help="Picture to be written.", show_default=False)
 ]
@@ -168,6 +170,11 @@ def compare(
         ]
         display, fitting = picture.display, 1600 // (parts[0].shape[1] * enlarge)
     beside = min(len(names), max(1, fitting) if columns is None else columns)
+    pixels = len(names) * parts[0].shape[0] * parts[0].shape[1] * enlarge**2
+    if pixels > _MOST_PIXELS:
+        raise UsageError(
+            f"The comparison would have {pixels / 1e6:,.0f} megapixels, and {_MOST_PIXELS / 1e6:,.0f} are enough."
+        )
     top = (1 << depth) - 1
     # Spread over the file's 8 bits; halves go up.
     shown = [((2 * 255 * part.astype(np.uint32) + top) // (2 * top)).astype(np.uint8) for part in parts]
