@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 from PIL import Image
 
 from illuminant import plots
 from illuminant.display.gamma.drift import study
 from illuminant.display.gamma.fitting import fit_gamma
-from illuminant.display.gamma.readings import read_readings
+from illuminant.display.gamma.readings import Measured, read_readings
 from illuminant.plots import banding_sheet, gamma_curves, gamma_drift
 
 DOCS = Path(__file__).parent.parent / "docs"
@@ -18,7 +17,7 @@ DPI = 96
 """Pixels per inch: about 800 pixels across a page."""
 
 
-def readings() -> tuple[np.ndarray, np.ndarray]:
+def readings() -> dict[str, Measured]:
     """Those of the page, between the lines that hold a file."""
     import re
     import tempfile
@@ -29,17 +28,16 @@ def readings() -> tuple[np.ndarray, np.ndarray]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "crt.csv"
         path.write_text(found[1], encoding="utf-8")
-        read = read_readings(path)
-    return read.codes, read.luminances["luminance"]
+        return read_readings(path)
 
 
 def main() -> None:
     """Draw them all."""
-    codes, luminances = readings()
-    fits = {"luminance": fit_gamma(codes, luminances, "offset")}
+    read = readings()
+    fits = {name: fit_gamma(*column, "offset") for name, column in read.items()}
     figures = {
         "gamma-response.png": gamma_curves.response_and_correction(2.2),
-        "gamma-fit.png": gamma_curves.fitted(codes, {"luminance": luminances}, fits),
+        "gamma-fit.png": gamma_curves.fitted(read, fits),
         "gamma-drift.png": gamma_drift.drift(study()),
         "gamma-brightness.png": gamma_curves.perceived(),
         "gamma-steps.png": banding_sheet.staircase((8, 10)),

@@ -8,7 +8,9 @@ import sys
 
 import numpy as np
 import pytest
+from PIL import Image, ImageCms
 
+from illuminant import color
 from illuminant.cli import run
 from illuminant.display.calibration import monitor, readings
 from illuminant.display.displays import named
@@ -103,13 +105,34 @@ def test_the_record_says_when_to_look_again(folder, capsys):
 
 
 def test_a_profile_of_the_monitor_is_written(folder):
-    pytest.importorskip("illuminant.display.profile")
     assert run(["calibrate", "simulate", "--seed", "1", "-o", "a.csv"]) == 0
     assert run(["calibrate", "fit", "a.csv", "-o", "a.toml", "--icc", "a.icc"]) == 0
     described, profiled = named("a.toml"), named("a.icc")
     np.testing.assert_allclose(profiled.primaries, described.primaries, atol=2e-4)
     codes = np.random.default_rng(1).random((40, 3))
     np.testing.assert_allclose(profiled.decode(codes), described.decode(codes), atol=2e-4)
+
+
+def test_littlecms_opens_the_profile_and_makes_the_same_colours_of_it(folder):
+    assert run(["calibrate", "simulate", "--seed", "3", "-o", "a.csv"]) == 0
+    assert run(["calibrate", "fit", "a.csv", "-o", "a.toml", "--icc", "a.icc", "--name", "left monitor"]) == 0
+    profile = ImageCms.getOpenProfile("a.icc")
+    assert ImageCms.getProfileDescription(profile).strip() == "left monitor"
+    codes = np.random.default_rng(1).integers(0, 256, (40, 50, 3), dtype=np.uint8)
+    codes[0] = codes[0, :, :1]
+    through = ImageCms.profileToProfile(
+        Image.fromarray(codes), profile, ImageCms.createProfile("sRGB"), renderingIntent=1
+    )
+    monitor = named("a.toml")
+    # Relative colorimetry: white to white, and black left out.
+    xyz = monitor.decode(codes / 255.0) @ monitor.to_xyz_matrix.T
+    xyz = color.adapt(xyz, monitor.white, (0.3127, 0.3290), method="Bradford")
+    linear = color.xyz_to_rgb(xyz, "sRGB")
+    inside = ((linear > 0.0) & (linear < 1.0)).all(axis=-1)
+    assert inside.mean() > 0.5
+    wanted = 255.0 * color.encode(linear.clip(0.0, 1.0), "sRGB")
+    away = np.abs(np.asarray(through)[inside] - wanted[inside])
+    assert away.max() < 2.0 and away.mean() < 0.5
 
 
 @pytest.mark.parametrize(

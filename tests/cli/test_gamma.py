@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from illuminant.display.displays import named
+
 Command = Callable[..., "subprocess.CompletedProcess[str]"]
 
 READINGS = "code,luminance\n" + "".join(
@@ -67,6 +69,7 @@ def test_readings_are_fitted_and_drawn(inside: Command, readings: Path, tmp_path
     assert done.stdout.startswith("luminance: γ 2.35 ± ")
     assert "floor 0.3 ±" in done.stdout
     assert (tmp_path / "fit.png").stat().st_size > 10_000
+    assert "γ 2.35 ±" in inside("gamma", "fit", readings, "--black", "0.3").stdout
     facts = json.loads(inside("gamma", "fit", readings, "--json", "--cutoff", "5").stdout)["luminance"]
     assert facts["gamma"] == pytest.approx(2.35, abs=0.05) and facts["cutoff"] >= 5
     for arguments, sentence in (
@@ -87,6 +90,12 @@ def test_phosphors_make_a_matrix(inside: Command, tmp_path: Path) -> None:
     facts = json.loads(inside("gamma", "phosphors", path, "--json").stdout)
     assert np.sum(facts["to_xyz"], axis=1)[1] == pytest.approx(1.0)
     assert facts["additivity"] is None
+    done = inside("gamma", "phosphors", path, "--gamma", "2.35", "-o", tmp_path / "crt.toml")
+    assert done.returncode == 0 and "description of crt" in done.stderr
+    display = named(tmp_path / "crt.toml")
+    assert (display.white, display.gamma) == ((0.313, 0.329), 2.35)
+    np.testing.assert_allclose(display.to_xyz_matrix, facts["to_xyz"], atol=1e-12)
+    assert inside("gamma", "phosphors", path, "-o", tmp_path / "crt.icc").returncode == 2
 
 
 @pytest.mark.parametrize("verb", ["response", "brightness", "banding"])
@@ -113,7 +122,7 @@ def test_mistakes_in_the_studies_are_sentences(inside: Command, tmp_path: Path) 
     for arguments, sentence in (
         (("drift", "--gammas", "a,b"), "numbers with commas"),
         (("drift", "--gammas", "-1"), "above 0"),
-        (("drift", "--primaries", "mine"), "no RGB system"),
+        (("drift", "--primaries", "mine"), "no display 'mine'"),
         (("brightness", "--black", "0"), "share"),
         (("banding", "--bits", "8.5"), "whole numbers"),
         (("banding", "--bits", "12"), "8 bits"),

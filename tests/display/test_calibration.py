@@ -139,29 +139,6 @@ def test_an_analyzer_that_was_taught_nothing_says_so():
 # --- fit -----------------------------------------------------------------------------------------------------------
 
 
-def test_gamma_is_found_with_noise_in_the_dark():
-    random = np.random.default_rng(2)
-    v = np.linspace(0.03, 1.0, 33)
-    true = 90.0 * v**2.35
-    found = [fit.fit_gamma(v, true + random.normal(0.0, 0.05, v.shape)) for _ in range(40)]
-    gammas = np.array([one.gamma for one in found])
-    assert abs(gammas.mean() - 2.35) < 0.005 and gammas.std() < 0.01
-    # Without a cutoff the darkest readings spoil it.
-    naive = [
-        fit.fit_gamma(v, np.maximum(true + random.normal(0.0, 0.05, v.shape), 1e-4), low=0.0).gamma
-        for _ in range(40)
-    ]
-    assert np.std(naive) > 4 * gammas.std()
-
-
-def test_a_given_cutoff_is_kept():
-    v = np.linspace(0.1, 1.0, 10)
-    found = fit.fit_gamma(v, v**2.0, low=0.2)
-    assert found.low == 0.2 and found.used == 5 and found.gamma == pytest.approx(2.0)
-    with pytest.raises(UsageError, match="three readings"):
-        fit.fit_gamma(v, v**2.0, low=0.9)
-
-
 def test_exact_readings_give_back_every_number_of_the_model():
     rows = np.array([[40.0, 21.0, 2.0], [35.0, 71.0, 12.0], [18.0, 8.0, 95.0]])
     true = fit.Characterisation(

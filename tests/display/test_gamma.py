@@ -1,14 +1,18 @@
 """Gamma: tables against the book's print, fits against known monitors, drift and banding against what they claim."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from illuminant import color
+from illuminant.display.calibration import readings as calibration
+from illuminant.display.calibration.monitor import Monitor
+from illuminant.display.displays import named
 from illuminant.display.gamma.banding import banding, compared, gradation, shaded_sphere
 from illuminant.display.gamma.brightness import brightness, equal_steps, lightness, resemblance
-from illuminant.display.gamma.drift import chart, shown, study
+from illuminant.display.gamma.drift import shown, study
 from illuminant.display.gamma.fitting import MODELS, fit_gamma
 from illuminant.display.gamma.levels import lost_levels, spread
 from illuminant.display.gamma.lookup_table import (
@@ -20,7 +24,7 @@ from illuminant.display.gamma.lookup_table import (
     quantised,
 )
 from illuminant.display.gamma.phosphors import read_phosphors
-from illuminant.display.gamma.readings import read_readings
+from illuminant.display.gamma.readings import Measured, read_readings
 from illuminant.display.gamma.remapping import degradation, remap
 from illuminant.display.gamma.response import correction, response
 from illuminant.display.gamma.storage import (
@@ -148,7 +152,7 @@ def test_tables_of_three_dimensions_of_colours_and_of_other_endings_are_refused(
     with pytest.raises(DataError, match="same number three times"):
         read_table(path)
     path.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(DataError, match="no text"):
+    with pytest.raises(DataError, match="not text"):
         read_table(path)
     with pytest.raises(DataError, match="cannot be read"):
         read_table(tmp_path / "none.cube")
@@ -312,12 +316,49 @@ def test_mistakes_in_readings_are_sentences():
             fit_gamma([1, 1, 1, 1, 1], [1, 2, 3, 4, 5], model)
 
 
+def test_black_that_was_read_by_itself_is_taken_off_first():
+    v = CODES / 255.0
+    found = fit_gamma(CODES, 80.0 * v**2.3 + 0.5, black=0.5)
+    assert (found.gamma, found.peak, found.floor) == pytest.approx((2.3, 80.0, 0.5), rel=1e-9)
+    np.testing.assert_allclose(found.luminance([0, 255]), [0.5, 80.5], rtol=1e-9)
+    np.testing.assert_allclose(found.residuals, 0.0, atol=1e-9)
+    with pytest.raises(UsageError, match="above black"):
+        fit_gamma(CODES, v, black=1.0)
+
+
+def test_noise_in_the_dark_does_little_harm_to_a_fit_with_a_cutoff():
+    random = np.random.default_rng(2)
+    v = np.linspace(0.03, 1.0, 33)
+    reads = [90.0 * v**2.35 + random.normal(0.0, 0.05, v.shape) for _ in range(40)]
+    gammas = [fit_gamma(v, read).gamma for read in reads]
+    assert abs(np.mean(gammas) - 2.35) < 0.005 and np.std(gammas) < 0.01
+    # Without a cutoff the darkest readings spoil it.
+    assert np.std([fit_gamma(v, read, cutoff=0.0).gamma for read in reads]) > 4 * np.std(gammas)
+
+
+def test_a_table_of_calibration_gives_greys_and_guns(tmp_path):
+    codes = calibration.plan()
+    model = Monitor(gamma=(2.1, 2.3, 2.2))
+    calibration.Readings(codes, model.xyz(codes)).save(tmp_path / "studio.csv")
+    found = read_readings(tmp_path / "studio.csv")
+    assert {name: len(column.codes) for name, column in found.items()} == {
+        "grey": 12, "red": 8, "green": 8, "blue": 8
+    }  # fmt: skip
+    assert found["red"].codes.max() == 255.0
+    gammas = [fit_gamma(*found[gun], "offset").gamma for gun in ("red", "green", "blue")]
+    assert gammas == pytest.approx(model.gamma, abs=2e-3)
+    short = calibration.Readings(codes[[0, -1]], model.xyz(codes[[0, -1]]))
+    short.save(tmp_path / "short.csv")
+    with pytest.raises(DataError, match="not 4 levels"):
+        read_readings(tmp_path / "short.csv")
+
+
 def test_readings_of_three_guns_come_from_one_file(tmp_path):
     path = tmp_path / "guns.csv"
     path.write_text("# a monitor\ncode, red, green, blue\n0,0,0.1,0\n255, 20, 70, 10  # white\n")
     found = read_readings(path)
-    assert list(found.luminances) == ["red", "green", "blue"]
-    assert found.luminances["green"].tolist() == [0.1, 70.0]
+    assert list(found) == ["red", "green", "blue"]
+    assert found["green"].luminances.tolist() == [0.1, 70.0]
     for content, message in (("", "no readings"), ("a,b\n1,x\n", ":2: 'x'"), ("1,2\n1\n", ":2: Expected 2")):
         path.write_text(content)
         with pytest.raises(DataError, match=message):
@@ -335,7 +376,7 @@ def test_xyz_of_the_guns_make_the_matrix_of_their_monitor(tmp_path):
     path.write_text("colour,X,Y,Z\n" + "".join(f"{n},{v[0]},{v[1]},{v[2]}\n" for n, v in rows.items()))
     found = read_phosphors(path)
     assert found.additivity == pytest.approx(1.0, abs=1e-12)
-    np.testing.assert_allclose(found.system().to_xyz, monitor.to_xyz, atol=1e-12)
+    np.testing.assert_allclose(found.display().to_xyz_matrix, monitor.to_xyz, atol=1e-12)
 
 
 def test_mistakes_in_phosphors_are_sentences(tmp_path):
@@ -353,7 +394,7 @@ def test_mistakes_in_phosphors_are_sentences(tmp_path):
             read_phosphors(path)
     path.write_text("colour,x,y\n" + rows.replace("0.155,0.07", "0.47,0.4675") + "white,0.313,0.329\n")
     with pytest.raises(UsageError):
-        read_phosphors(path).system()
+        read_phosphors(path).display()
 
 
 # --- a wrong gamma -----------------------------------------------------------------------------------------------
@@ -398,8 +439,8 @@ def test_differences_grow_away_from_the_right_gamma_and_contrast_is_the_ratio_of
 
 
 def test_the_chart_lies_inside_the_book_s_monitor_and_cyan_outside_of_srgb():
-    assert chart().outside == ()
-    assert chart("sRGB").outside == ("cyan",)
+    assert study((2.2,)).outside == ()
+    assert study((2.2,), display="sRGB").outside == ("cyan",)
     with pytest.raises(UsageError, match="above 0"):
         study((0.0,))
     with pytest.raises(UsageError, match="at least one"):
@@ -500,59 +541,35 @@ def test_the_sphere_is_brightest_towards_its_lamp():
 # --- from monitor to monitor -------------------------------------------------------------------------------------
 
 
-class Plain:
-    """A display of an RGB system, with a black of 0."""
-
-    def __init__(self, name, peak=100.0):
-        self.system = color.system(name)
-        self.name, self.shown_white, self.white = name, peak, self.system.white
-
-    def encode(self, linear):
-        """Code values."""
-        return color.encode(linear, self.system)
-
-    def decode(self, code):
-        """Linear values."""
-        return color.decode(code, self.system)
-
-    def to_xyz(self, code):
-        """XYZ, cd/m²."""
-        return self.shown_white * color.rgb_to_xyz(code, self.system, encoded=True)
-
-    def from_xyz(self, xyz):
-        """Linear values of XYZ in cd/m²."""
-        return color.xyz_to_rgb(xyz / self.shown_white, self.system)
-
-
 def test_a_display_to_itself_changes_no_code():
     codes = np.random.default_rng(1).integers(0, 256, (30, 40, 3), dtype=np.uint8)
     for bits in (8, 10):
-        mapped, clamped = remap(codes, Plain("sRGB"), Plain("sRGB", 250.0), bits=bits)
+        mapped, clamped = remap(codes, named("sRGB"), replace(named("sRGB"), peak=250.0), bits=bits)
         np.testing.assert_array_equal(mapped, codes)
         assert clamped == 0.0
 
 
 def test_a_mapped_colour_is_the_same_colour_to_within_its_rounding():
     codes = np.random.default_rng(2).integers(0, 256, (500, 3), dtype=np.uint8)
-    a, b = Plain("sRGB"), Plain("Rec.2020")
+    a, b = named("sRGB"), named("Rec.2020")
     mapped, clamped = remap(codes, a, b, out_bits=16)
     assert clamped == 0.0
-    np.testing.assert_allclose(b.to_xyz(mapped / 65535.0), a.to_xyz(codes / 255.0), atol=0.02)
+    np.testing.assert_allclose(b.to_xyz(mapped / 65535.0) / b.peak, a.to_xyz(codes / 255.0) / a.peak, atol=2e-4)
 
 
 def test_white_goes_to_white_unless_luminance_is_kept():
     white = np.full((1, 3), 255, np.uint8)
-    dim, bright = Plain("sRGB", 80.0), Plain("Rec.709", 100.0)
+    dim, bright = replace(named("sRGB"), peak=80.0), replace(named("Rec.709"), peak=100.0)
     assert remap(white, dim, bright)[0].tolist() == [[255, 255, 255]]
     kept, _ = remap(white, dim, bright, match="absolute")
-    assert np.unique(kept).tolist() == [round(255 * float(color.encode([0.8] * 3, "Rec.709")[0]))]
+    assert np.unique(kept).tolist() == [round(255 * float(named("Rec.709").encode([0.8] * 3)[0]))]
     assert remap(white, bright, dim, match="absolute")[1] == 1.0
 
 
 def test_mapping_stored_codes_is_worse_than_mapping_floats_and_a_finer_file_is_better():
     # Colours of the smaller gamut alone, so that nothing is clamped.
     linear = np.random.default_rng(3).random((20000, 3)) ** 2.4
-    a, b = Plain("sRGB"), Plain("Rec.2020")
+    a, b = named("sRGB"), named("Rec.2020")
     found = {bits: degradation(linear, a, b, bits=bits, out_bits=8) for bits in (6, 8, 12)}
     assert found[6].mean > found[8].mean > found[12].mean > 0.0
     assert found[8].clamped == 0.0
@@ -562,17 +579,17 @@ def test_mapping_stored_codes_is_worse_than_mapping_floats_and_a_finer_file_is_b
 
 def test_a_ramp_loses_codes_on_its_way_and_back():
     ramp = np.repeat(np.linspace(0.0, 1.0, 4096)[:, None] ** 2.2, 3, axis=1)
-    found = degradation(ramp, Plain("NTSC 1953 D65"), Plain("sRGB"))
+    found = degradation(ramp, named("NTSC 1953 D65"), named("sRGB"))
     assert max(found.levels) < max(found.float_levels) == 256
     assert found.colours < found.float_colours
     codes = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
-    there, _ = remap(codes, Plain("NTSC 1953 D65"), Plain("sRGB"))
-    back, _ = remap(there, Plain("sRGB"), Plain("NTSC 1953 D65"))
+    there, _ = remap(codes, named("NTSC 1953 D65"), named("sRGB"))
+    back, _ = remap(there, named("sRGB"), named("NTSC 1953 D65"))
     assert 1 <= np.abs(back.astype(int) - codes).max() <= 8
 
 
 def test_mistakes_in_a_mapping_are_sentences():
-    a = Plain("sRGB")
+    a = named("sRGB")
     with pytest.raises(UsageError, match="whole numbers"):
         remap(np.zeros((2, 3)), a, a)
     with pytest.raises(UsageError, match="0 to 63"):
@@ -617,7 +634,7 @@ def test_plots_show_the_numbers_that_were_computed():
     levels = [len(np.unique(np.round(line.get_ydata(), 9))) for line in steps]
     assert levels[1] < levels[0] < levels[2]
     read = readings(4, 2.2)
-    drawn = gamma_curves.fitted(CODES, {"grey": read}, {"grey": fit_gamma(CODES, read)})
+    drawn = gamma_curves.fitted({"grey": Measured(CODES, read)}, {"grey": fit_gamma(CODES, read)})
     assert drawn.axes[0].get_xscale() == "log"
     assert "γ 2.2" in drawn.axes[0].get_legend().get_texts()[0].get_text()
     assert gamma_curves.perceived(0.02).axes[1].get_xlabel() == "code value, or perceived brightness"

@@ -8,22 +8,18 @@ import pytest
 from illuminant import color
 from illuminant.display import patterns
 from illuminant.display.displays import named
-from illuminant.display.patterns import Screen, color_bars, color_checker, composite, gamma_chart, pluge
-from illuminant.display.patterns.safe_areas import outside, overlay, rectangle
+from illuminant.display.patterns import (
+    Screen,
+    color_bars,
+    color_checker,
+    gamma_chart,
+    pluge,
+    safe_areas,
+    wedges,
+)
 from illuminant.display.patterns.screen import rgb
+from illuminant.display.video import transmission
 from illuminant.errors import UsageError
-
-# Luminance, carrier from peak to peak, and angle of the 75 % bars with 7.5 IRE of setup (EIA RS-189-A).
-EIA = {
-    "white": (76.9, 0.0, 0.0),
-    "yellow": (69.0, 62.1, 167.1),
-    "cyan": (56.1, 87.7, 283.5),
-    "green": (48.2, 81.9, 240.7),
-    "magenta": (36.2, 81.9, 60.7),
-    "red": (28.2, 87.7, 103.5),
-    "blue": (15.4, 62.1, 347.1),
-    "black": (7.5, 0.0, 0.0),
-}
 
 
 def at(values, x, y):
@@ -125,16 +121,16 @@ def test_the_bars_are_75_percent_in_order_of_luminance(name):
     bars = [at(values, (k + 0.5) / 7, 0.3) for k in range(7)]
     wanted = [(1, 1, 1), (1, 1, 0), (0, 1, 1), (0, 1, 0), (1, 0, 1), (1, 0, 0), (0, 0, 1)]
     np.testing.assert_array_equal(bars, 0.75 * np.array(wanted))
-    luminance = composite.rgb_to_yiq(bars)[:, 0]
+    luminance = color.monochrome(bars)
     assert (np.diff(luminance) < 0).all()
 
 
-def test_the_levels_of_the_bars_are_those_of_the_standard():
+def test_the_levels_of_the_bars_are_those_of_the_standard(eia):
     found = color_bars.bar_levels()
-    for name, (luminance, carrier, angle) in EIA.items():
+    for name, (luminance, carrier, angle) in eia.items():
         assert found[name].luminance == pytest.approx(luminance, abs=0.06), name
         assert found[name].carrier == pytest.approx(carrier, abs=0.06), name
-        assert found[name].angle_deg == pytest.approx(angle, abs=0.1), name
+        assert found[name].angle_deg == pytest.approx(angle, abs=0.06), name
     assert found["yellow"].high == pytest.approx(100.0, abs=0.1)
     assert found["red"].low == pytest.approx(-15.6, abs=0.1)
     assert found["white 100%"].luminance == pytest.approx(100.0, abs=1e-9)
@@ -149,7 +145,7 @@ def test_minus_i_and_plus_q_have_the_amplitude_of_the_burst_on_black():
     assert min(color_bars.minus_i(lift=False)) < -0.1, "which no frame buffer holds"
 
 
-def test_lifted_bars_keep_their_vectors_and_change_their_luminance():
+def test_lifted_bars_keep_their_vectors_and_change_their_luminance(eia):
     plain, lifted = color_bars.bar_levels(), color_bars.bar_levels(lift=True)
     for name, function in (("-I", color_bars.minus_i), ("+Q", color_bars.plus_q)):
         assert lifted[name].angle_deg == pytest.approx(plain[name].angle_deg, abs=1e-9)
@@ -157,7 +153,7 @@ def test_lifted_bars_keep_their_vectors_and_change_their_luminance():
         assert lifted[name].luminance > plain[name].luminance + 10.0
         signals = function(lift=True)
         assert min(signals) == 0.0 and max(signals) < 1.0
-    for name in EIA:
+    for name in eia:
         assert lifted[name] == plain[name]
 
 
@@ -177,7 +173,9 @@ def test_the_bottom_of_the_eia_bars_is_minus_i_white_plus_q_black():
 
 def test_the_encoded_pattern_differs_from_that_of_the_frame_buffer_in_luminance_alone():
     screen = Screen(560, 120)
-    encoded, stored = (composite.rgb_to_yiq(f(screen)) for f in (color_bars.encoded_eia, color_bars.eia))
+    encoded, stored = (
+        color.rgb_to_yiq(f(screen), matrix="standard") for f in (color_bars.encoded_eia, color_bars.eia)
+    )
     np.testing.assert_allclose(encoded[..., 1:], stored[..., 1:], atol=1e-12)
     assert encoded[-1, 10, 0] == pytest.approx(0.0, abs=1e-12)
 
@@ -197,12 +195,6 @@ def test_the_smpte_pattern_has_pluge_below_red():
     values = patterns.draw("smpte", Screen(2100, 480))
     third = [float(at(values, (5 + (k + 0.5) / 3) / 7, 0.9)[0]) for k in range(3)]
     assert third == [0.0, 0.0, 0.04]
-
-
-def test_yiq_comes_back_exactly_and_is_near_the_rounded_matrix_of_the_book():
-    colors = np.random.default_rng(3).random((100, 3))
-    np.testing.assert_allclose(composite.yiq_to_rgb(composite.rgb_to_yiq(colors)), colors, atol=1e-14)
-    np.testing.assert_allclose(composite.rgb_to_yiq(colors), color.rgb_to_yiq(colors), atol=2e-3)
 
 
 # --- gamma, ramps ------------------------------------------------------------------------------------------------
@@ -343,9 +335,32 @@ def test_the_chart_has_six_by_four_square_patches_in_order():
 @pytest.mark.parametrize(("axis", "index"), [("Y", 0), ("I", 1), ("Q", 2)])
 def test_a_wedge_differs_from_grey_along_its_axis_alone(axis, index):
     values = patterns.draw("wedges", Screen(320, 240), axis=axis)
-    yiq = composite.rgb_to_yiq(values[22:215, 60:260]) - [0.5, 0.0, 0.0]
+    yiq = color.rgb_to_yiq(values[22:215, 60:260]) - [0.5, 0.0, 0.0]
     assert np.abs(np.delete(yiq, index, axis=-1)).max() < 1e-12
     assert np.abs(yiq[..., index]).max() > 0.29
+
+
+def test_wedges_sent_through_ntsc_merge_in_the_order_of_the_bands():
+    screen = Screen(640, 240)
+    rows, lines = wedges.fineness(240, 10, 240)
+    image = patterns.draw("wedges", screen, coarsest=10, lines=240)[rows]
+    sent = color.rgb_to_yiq(transmission.transmit(image, decoder="notch"))
+    merged = []
+    for axis, left in enumerate(screen.edges([1, 1, 1], 640)[:3]):
+        seen = np.ptp(sent[:, left + 60 : left + 150, axis], axis=1)
+        merged.append(lines[np.flatnonzero(seen > 0.5 * seen[:20].max())[-1]] * 640 / 240 / 2)
+    # Cycles in the width at which half of the contrast is left: I and Q by their filters, Y by the notch.
+    assert 120 < merged[0] < 240 and 60 < merged[1] < 110 and 22 < merged[2] < 45
+
+
+def test_a_wedge_has_as_many_lines_as_it_says():
+    rows, lines = wedges.fineness(400, 20, 200)
+    image = patterns.draw("wedges", Screen(1200, 400), axis="Y", coarsest=20, lines=200)[rows, :, 0] - 0.5
+    for row in (30, 150, 300):
+        line = image[row, 400:800]
+        marked = np.flatnonzero(np.abs(line) > 0.1)
+        flips = marked[np.flatnonzero(np.diff(np.sign(line[marked])))]
+        assert 400 / np.diff(flips).mean() == pytest.approx(lines[row], rel=0.03)
 
 
 def test_wedges_get_finer_and_fainter_but_never_change_their_mean():
@@ -368,7 +383,12 @@ def test_a_crosshatch_has_square_meshes_and_is_symmetric():
 
 
 def test_safe_areas_are_the_fractions_of_the_standards():
-    assert rectangle(1000, 500, 0.9) == (50, 25, 950, 475)
+    assert safe_areas.rectangle(1000, 500, 0.9) == (50, 25, 950, 475)
+    for action, title in safe_areas.STANDARDS.values():
+        for part in (action, title):
+            mask = safe_areas.inside(1000, 500, part)
+            assert mask.mean() == pytest.approx(part**2, abs=3e-3)
+            np.testing.assert_array_equal(mask, mask[::-1, ::-1])
     values = patterns.draw("safe-areas", Screen(1000, 500))
     assert values[25, 500, 0] == 1.0 and values[50, 500, 0] == 1.0
     assert values[24, 500, 0] == values[40, 500, 0] == 0.25
@@ -378,14 +398,33 @@ def test_safe_areas_are_the_fractions_of_the_standards():
     )
 
 
-def test_an_overlay_leaves_the_picture_and_tells_what_lies_outside():
-    picture = np.full((100, 200, 3), 0.5)
-    shown = overlay(picture)
-    assert (picture == 0.5).all() and (shown != picture).mean() < 0.2
+def test_an_overlay_is_seen_on_light_and_dark_and_leaves_the_picture():
+    image = np.full((480, 640, 3), 0.2)
+    drawn = safe_areas.overlay(image)
+    changed = (drawn != image).any(axis=-1)
+    assert (image == 0.2).all()
+    assert changed[24, 32:608].all() and changed[48, 64:576].all() and changed[240, 320]
+    assert not changed[:24].any() and changed.mean() < 0.02
+    assert (drawn[changed] == 1.0).all()
+    assert (safe_areas.overlay(np.ones((480, 640, 3))).min(axis=-1)[changed] == 0.0).all()
+    assert (safe_areas.overlay(image, color=(1.0, 0.0, 0.0))[changed] == [1.0, 0.0, 0.0]).all()
+
+
+def test_text_outside_the_title_area_is_found():
     title = np.zeros((100, 200))
+    assert safe_areas.outside(title, 0.8) == 0.0
     title[50, 100], title[2, 2] = 3.0, 1.0
-    assert outside(title, 0.8) == 0.25
-    assert outside(np.zeros((100, 200)), 0.8) == 0.0
+    assert safe_areas.outside(title, 0.8) == 0.25
+    assert safe_areas.outside(np.eye(100), 0.8) == pytest.approx(0.2)
+    image = np.zeros((100, 100, 3))
+    image[50, 50] = 1.0
+    assert safe_areas.outside(safe_areas.detail(image)) == 0.0
+    image[95, 95] = 1.0
+    assert safe_areas.outside(safe_areas.detail(image)) == 0.5
+    assert safe_areas.outside(safe_areas.detail(image), safe_areas.ACTION) == 0.5
+    for wrong in (lambda: safe_areas.outside(image), lambda: safe_areas.overlay(image[..., 0])):
+        with pytest.raises(UsageError, match="not"):
+            wrong()
 
 
 # --- mistakes --------------------------------------------------------------------------------------------------
@@ -409,9 +448,10 @@ def test_an_overlay_leaves_the_picture_and_tells_what_lies_outside():
         ("shadows", {"level": 2.0}, "not 2"),
         ("gamma", {"weave": "tartan"}, "not 'tartan'"),
         ("pluge", {"levels": "film"}, "not 'film'"),
-        ("smpte", {"setup": 99.0}, "not 99"),
+        ("smpte", {"setup": 99.0}, "setup of 99 IRE"),
         ("wedges", {"axis": "U"}, "not 'U'"),
-        ("wedges", {"lines": 5}, "not 5"),
+        ("wedges", {"lines": 5}, "not 30 to 5"),
+        ("wedges", {"coarsest": 2}, "not 2 to"),
         ("crosshatch", {"count": 0}, "not 0"),
         ("safe-areas", {"standard": "EBU"}, "not 'EBU'"),
         ("colorchecker", {"chart": "Kodak"}, "not 'Kodak'"),

@@ -5,6 +5,7 @@ import PIL.Image
 import pytest
 
 from illuminant import color
+from illuminant.display.patterns import color_bars
 from illuminant.display.picture import Picture
 from illuminant.display.video import (
     black_and_white,
@@ -13,10 +14,8 @@ from illuminant.display.video import (
     hazards,
     interlace,
     legality,
-    safe_areas,
     scopes,
     transmission,
-    wedges,
 )
 from illuminant.display.video.composite import encode
 from illuminant.display.video.decoders import DECODERS
@@ -164,14 +163,18 @@ def test_sixty_fields_a_second_are_computed_for_their_own_times() -> None:
 
 def test_hot_colours_are_those_of_the_closed_form() -> None:
     levels = {name: legality.composite_range(rgb) for name, rgb in cube.CORNERS.items()}
-    # 7.5 + 92.5 (0.886 ± √(0.493² 0.886² + 0.877² 0.114²))
-    assert levels["yellow"][1] == pytest.approx(7.5 + 92.5 * (0.886 + np.hypot(0.493 * 0.886, 0.877 * 0.114)))
-    assert levels["blue"][0] == pytest.approx(7.5 + 92.5 * (0.114 - np.hypot(0.493 * 0.886, 0.877 * 0.114)))
+    # 7.5 + 92.5 (0.886 ± √(0.492111² 0.886² + 0.877283² 0.114²))
+    assert levels["yellow"][1] == pytest.approx(
+        7.5 + 92.5 * (0.886 + np.hypot(0.492111 * 0.886, 0.877283 * 0.114))
+    )
+    assert levels["blue"][0] == pytest.approx(
+        7.5 + 92.5 * (0.114 - np.hypot(0.492111 * 0.886, 0.877283 * 0.114))
+    )
     found = [name for name, rgb in cube.CORNERS.items() if legality.hot(rgb)]
-    assert found == ["red", "yellow", "cyan", "blue"]
-    assert not any(legality.hot(rgb) for rgb in scopes.BARS.values())
+    assert found == ["yellow", "cyan", "red", "blue"]
+    assert not any(legality.hot(rgb) for rgb in color_bars.bars_75().values())
     limited = [n for n, rgb in cube.CORNERS.items() if legality.hot(rgb, legality.Limits(chroma=50.0))]
-    assert limited == ["red", "yellow", "green", "cyan", "blue", "magenta"]
+    assert limited == ["yellow", "cyan", "green", "magenta", "red", "blue"]
 
 
 @pytest.mark.parametrize("limits", [legality.Limits(), legality.Limits(high=110.0, chroma=50.0)])
@@ -251,7 +254,7 @@ def test_colours_near_the_q_axis_are_told_from_those_near_i(axis: int, near: boo
     assert found["chroma"].any() and bool(found["q axis"].any()) is near
 
 
-# --- cube and wedges -----------------------------------------------------------------------------------------
+# --- cube ----------------------------------------------------------------------------------------------------
 
 
 def test_blue_magenta_and_red_have_much_colour_and_little_luminance() -> None:
@@ -266,45 +269,16 @@ def test_blue_magenta_and_red_have_much_colour_and_little_luminance() -> None:
     assert cube.hot_share() == pytest.approx(0.005, abs=0.001)
 
 
-def test_a_wedge_changes_one_axis_and_merges_in_the_order_of_the_bands() -> None:
-    image = wedges.wedges(640, 200)
-    assert image.min() >= 0.0 and image.max() <= 1.0
-    yiq = color.rgb_to_yiq(image) - [0.5, 0.0, 0.0]
-    sent = color.rgb_to_yiq(transmission.transmit(image, decoder="notch")) - [0.5, 0.0, 0.0]
-    merged = []
-    for axis, where in enumerate(wedges.columns(640)):
-        others = np.delete(yiq[:, where], axis, axis=-1)
-        np.testing.assert_allclose(others, 0.0, atol=1e-12)
-        assert np.ptp(yiq[:, where, axis]) == pytest.approx(2 * wedges.AMPLITUDE)
-        spread = np.ptp(sent[:, where, axis][:, 40:-40], axis=1) / (2 * wedges.AMPLITUDE)
-        rows = np.flatnonzero(spread[20:] < 0.5)
-        merged.append(rows[0] if len(rows) else 200)
-    assert merged[2] < merged[1] < merged[0]
-
-
-def test_a_wedge_has_as_many_cycles_as_it_says() -> None:
-    image = wedges.wedges(1200, 100, coarsest=30.0, finest=240.0)
-    for row in (20, 50, 80):
-        t = ((row + 0.5) / 100 - wedges.MARGIN) / (1 - 2 * wedges.MARGIN)
-        rate = wedges.cycles_at(t, 30.0, 240.0)
-        y = color.rgb_to_yiq(image[row, :400])[:, 0] - 0.5
-        flips = np.flatnonzero(np.diff(np.sign(y[np.abs(y) > 0.1])))
-        where = np.flatnonzero(np.abs(y) > 0.1)[flips]
-        assert 1200 / (2 * np.diff(where).mean()) == pytest.approx(float(rate), rel=0.03)
-    with pytest.raises(UsageError, match="rising to at most 320"):
-        wedges.wedges(640, 480, finest=400.0)
-
-
 # --- instruments ---------------------------------------------------------------------------------------------
 
 
 def test_the_vectorscope_shows_bars_on_their_targets_and_greys_in_the_middle() -> None:
-    bars = np.repeat(np.array([scopes.BARS[n] for n in scopes.BARS]), 100, axis=0)
+    bars = np.repeat(np.array(list(color_bars.bars_75().values())), 100, axis=0)
     image = np.tile(bars, (4, 1, 1))
     points = scopes.vectors(encode(transmission.on_lines(image)), 2)
-    for k, name in enumerate(scopes.BARS):
+    for k, name in enumerate(color_bars.BARS):
         point = points[int((k + 0.5) * ACTIVE / 7)]
-        wanted = np.zeros(2) if name == "grey" else scopes.targets()[name]
+        wanted = np.zeros(2) if name == "white" else scopes.targets()[name]
         np.testing.assert_allclose(point, wanted, atol=0.4)
     assert len(scopes.vectors(encode(transmission.on_lines(image)))) == 4 * ACTIVE
 
@@ -325,33 +299,6 @@ def test_a_screen_counts_every_point_that_is_on_it() -> None:
     assert screen.shape == (30, 40) and screen.sum() == 500
     corner = scopes.density(np.array([0.01]), np.array([0.99]), ((0, 1), (0, 1)), (40, 30))
     assert corner[0, 0] == 1
-
-
-# --- safe areas ----------------------------------------------------------------------------------------------
-
-
-def test_the_safe_areas_are_90_and_80_percent() -> None:
-    for part in (0.9, 0.8):
-        mask = safe_areas.inside(1000, 500, part)
-        assert mask.mean() == pytest.approx(part**2)
-        np.testing.assert_array_equal(mask, mask[::-1, ::-1])
-    image = np.full((480, 640, 3), 0.2)
-    drawn = safe_areas.overlay(image)
-    changed = (drawn != image).any(axis=-1)
-    assert changed[24, 32:608].all() and changed[48, 64:576].all() and changed[240, 320]
-    assert not changed[:24].any() and changed.mean() < 0.02
-    assert (drawn[changed] == 1.0).all()
-    assert (safe_areas.overlay(np.ones((480, 640, 3))).min(axis=-1)[changed] == 0.0).all()
-
-
-def test_text_outside_the_title_area_is_found() -> None:
-    image = np.zeros((100, 100, 3))
-    image[50, 50] = 1.0
-    assert safe_areas.outside_share(safe_areas.detail(image)) == 0.0
-    image[95, 95] = 1.0
-    assert safe_areas.outside_share(safe_areas.detail(image)) == 0.5
-    assert safe_areas.outside_share(safe_areas.detail(image), safe_areas.ACTION) == 0.5
-    assert safe_areas.outside_share(np.eye(100), 0.8) == pytest.approx(0.2)
 
 
 # --- black and white -----------------------------------------------------------------------------------------

@@ -103,6 +103,10 @@ def pattern(
             "--lines", metavar="N", help="Wedges: the finest, per picture height.", show_default=False
         ),
     ] = None,
+    coarsest: Annotated[
+        int | None,
+        typer.Option("--coarsest", metavar="N", help="Wedges: the coarsest (30).", show_default=False),
+    ] = None,
     standard: Annotated[
         str | None,
         typer.Option(
@@ -139,6 +143,7 @@ def pattern(
         "light": light,
         "axis": axis,
         "lines": lines,
+        "coarsest": coarsest,
         "standard": standard,
     }
     given = {word: value for word, value in given.items() if value is not None}

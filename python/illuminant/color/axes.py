@@ -4,8 +4,9 @@
     - "exact": eq 5.2 with 0.114 for the printed 0.144 and −0.523 for −0.528 (ERRATA 13, 14), and back its exact
       inverse, so that there and back is good to all digits;
     - "book": the same there, and back the rounded eq 5.3: there and back is good to 3 × 10⁻⁴;
-    - "standard": what these are rounded from. V = 0.877 (R − Y_t) and U = 0.493 (B − Y_t), turned by 33°:
-      I = V cos 33° − U sin 33°, Q = V sin 33° + U cos 33° (FCC 1953, 47 CFR 73.682; SMPTE 170M).
+    - "standard": what these are rounded from. V = 0.877283 (R − Y_t) and U = 0.492111 (B − Y_t), turned by 33°:
+      I = V cos 33° − U sin 33°, Q = V sin 33° + U cos 33° (FCC 1953, 47 CFR 73.682, who round to 0.877 and 0.493;
+      SMPTE 170M-2004).
 - Y_t, V, U: the colour differences before they are turned. The book's footnote 15 calls these I and Q (ERRATA 15).
 - A C₁ C₂ (book eq 3.6, Meyer): axes along which tristimulus values vary most; the inverse is exact.
 
@@ -48,8 +49,8 @@ __all__ = [
 LUMINANCE = (0.299, 0.587, 0.114)
 """Shares of R, G and B in Y_t (book eq 5.5)."""
 
-V_GAIN, U_GAIN = 0.877, 0.493
-"""Of R − Y_t and B − Y_t: they keep the composite signal of any bar of full saturation within bounds."""
+V_GAIN, U_GAIN = 0.877283, 0.492111
+"""Of R − Y_t and B − Y_t: with them yellow and cyan reach up to 4/3 of white, and red and blue down to −1/3."""
 
 TURN_DEG = 33.0
 """From V to I, and from U to Q: I lies along orange and cyan, where the eye sees finer detail."""
@@ -69,7 +70,7 @@ def yiq_matrix(matrix: str = "exact") -> NDArray[np.float64]:
 
     Example:
         >>> yiq_matrix("standard")[1:].round(4).tolist()
-        [[0.5959, -0.2741, -0.3217], [0.2112, -0.5231, 0.3119]]
+        [[0.5959, -0.2746, -0.3213], [0.2115, -0.5227, 0.3112]]
     """
     import numpy as np
 
@@ -89,7 +90,7 @@ def _known(matrix: str) -> str:
 
 
 def _yvu_matrix() -> NDArray[np.float64]:
-    """From RGB to Y_t, 0.877 (R − Y_t), 0.493 (B − Y_t)."""
+    """From RGB to Y_t, V, U."""
     import numpy as np
 
     y = np.array(LUMINANCE)
@@ -134,11 +135,11 @@ def yiq_to_rgb(yiq: ArrayLike, *, matrix: str = "exact", out: Array | None = Non
 
 
 def rgb_to_yvu(rgb: ArrayLike, *, out: Array | None = None) -> Array:
-    """Y_t, V = 0.877 (R − Y_t) and U = 0.493 (B − Y_t) of RGB (..., 3) (book footnote 15, ERRATA 15).
+    """Y_t, V = 0.877 (R − Y_t) and U = 0.492 (B − Y_t) of RGB (..., 3) (book footnote 15, ERRATA 15).
 
     Example:
         >>> rgb_to_yvu([1.0, 0.0, 0.0]).round(4).tolist()
-        [0.299, 0.6148, -0.1474]
+        [0.299, 0.615, -0.1471]
     """
     return converted([step("matrix", _yvu_matrix().tolist())], rgb, out)
 

@@ -39,6 +39,7 @@ References: IEC 61966-2-1:1999; ITU-R BT.709-6, BT.1886-0, BT.2020-2, BT.2100-3,
 from __future__ import annotations
 
 import functools
+import json
 import math
 import os
 from collections.abc import Sequence
@@ -216,6 +217,22 @@ class Display:
         found["response"] = one[0] if same and isinstance(one[0], str) else one
         found |= {"peak": self.peak, "black": self.black}
         return found if self.reference is None else found | {"reference": self.reference}
+
+    def save(self, path: str | os.PathLike[str], comment: str = "") -> None:
+        """Write the description as a TOML file that `named` reads, atomically; the comment is its first line."""
+        from illuminant import output
+
+        lines = [f"# {comment} Luminances in cd/m².".replace("  ", " "), ""]
+        lines += [f"{key} = {_toml(value)}" for key, value in self.to_dict().items()]
+        output.write_bytes(path, ("\n".join(lines) + "\n").encode())
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(_toml(item) for item in value)}]"
+    return repr(value)
 
 
 _REC709 = ((0.640, 0.330), (0.300, 0.600), (0.150, 0.060))

@@ -180,11 +180,10 @@ def _through_table(linear: Array, display: displays.Display, look: Look) -> Any:
     import numpy as np
 
     from illuminant.display import dither
+    from illuminant.display.gamma.lookup_table import quantised, top_code
 
-    top = (1 << look.bits) - 1
     stored = dither.quantise(linear, look.bits, look.dither, look.seed)
-    places = np.arange(top + 1) / top
-    table = display.encode(np.repeat(places[:, None], 3, axis=1))
-    kind = np.uint8 if look.bits <= 8 else np.uint16
-    lookup = np.floor(table * top).astype(kind)  # truncated, as table 5.1 is
+    top = top_code(look.bits)
+    table = display.encode(np.repeat(np.arange(top + 1)[:, None] / top, 3, axis=1))
+    lookup = quantised(table, look.bits, "truncate")  # as table 5.1 is
     return np.stack([lookup[stored[..., channel], channel] for channel in range(3)], axis=-1)

@@ -181,7 +181,6 @@ def _colorchecker(nm: Array) -> Array:
     """(25, n) white and the 24 reflectances of the ColorChecker at every nm."""
     import numpy as np
 
-    from illuminant import spectra
+    from illuminant.display.patterns.color_checker import reflectances
 
-    names = [name for name in spectra.names("reflectance") if name.startswith("ColorChecker/")]
-    return np.stack([np.ones(len(nm)), *(spectra.load(name).at(nm) for name in names)])
+    return np.stack([np.ones(len(nm)), *(curve.at(nm) for curve in reflectances())])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from illuminant.color.axes import TURN_DEG
+from illuminant.display.patterns.color_bars import BARS
 from illuminant.display.video import scopes
 from illuminant.plots.style import GREY, INK, new_figure, styled
 
@@ -115,7 +116,7 @@ def _graticule(axes: Axes, bars: float, targets: dict[str, NDArray[np.float64]])
         radius, angle = np.hypot(u, v), np.arctan2(v, u)
         a = angle + np.radians(2.5) * np.array([-1, -1, 1, 1, -1])
         r = radius + 2.5 * np.array([-1, 1, 1, -1, -1])
-        rgb = tuple(0.85 * value / 0.75 for value in scopes.BARS[name])
+        rgb = tuple(0.85 * value for value in BARS[name])
         axes.plot(r * np.cos(a), r * np.sin(a), color=rgb, linewidth=1.4, zorder=3)
         place = (radius + 7.0) * np.array([np.cos(angle), np.sin(angle)])
         axes.annotate(name, tuple(place), ha="center", va="center", fontsize=8.0, color=INK)

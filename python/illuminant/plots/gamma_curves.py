@@ -12,9 +12,9 @@ from illuminant.plots.style import DPI, GREY, line_look, styled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-    from numpy.typing import ArrayLike
 
     from illuminant.display.gamma.fitting import GammaFit
+    from illuminant.display.gamma.readings import Measured
 
 __all__ = ["fitted", "perceived", "response_and_correction"]
 
@@ -83,29 +83,29 @@ def response_and_correction(curve: Curve = 2.2, bits: int = 6) -> Figure:
     return figure
 
 
-def fitted(codes: ArrayLike, luminances: Mapping[str, ArrayLike], fits: Mapping[str, GammaFit]) -> Figure:
+def fitted(readings: Mapping[str, Measured], fits: Mapping[str, GammaFit]) -> Figure:
     """Readings and the responses fitted to them, on logarithmic axes, with the residuals beside.
 
     Args:
-        codes: (n,) of the fields.
-        luminances: (n,) for each column by name, cd/m².
-        fits: the fit of each column.
+        readings: columns by name.
+        fits: the fit of each.
 
     Example:
         >>> from illuminant.display.gamma.fitting import fit_gamma
-        >>> codes, read = [51, 102, 153, 204, 255], [2.9, 13.3, 32.5, 61.2, 100.0]
-        >>> figure = fitted(codes, {"grey": read}, {"grey": fit_gamma(codes, read)})
+        >>> from illuminant.display.gamma.readings import Measured
+        >>> read = Measured([51, 102, 153, 204, 255], [2.9, 13.3, 32.5, 61.2, 100.0])
+        >>> figure = fitted({"grey": read}, {"grey": fit_gamma(*read)})
         >>> figure.axes[1].get_ylabel()
         'reading against fit (%)'
     """
     import numpy as np
     from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
-    code = np.asarray(codes, np.float64)
     with styled():
         figure, (left, right) = _pair(8.6, 4.0)
         for number, (name, fit) in enumerate(fits.items()):
-            read, look = np.asarray(luminances[name], np.float64), line_look(number)
+            code, read = (np.asarray(column, np.float64) for column in readings[name])
+            look = line_look(number)
             at = np.geomspace(0.6 * code[code > 0].min(), code.max(), 400)
             curve = fit.luminance(at)
             lit = curve > 0

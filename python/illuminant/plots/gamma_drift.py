@@ -39,7 +39,7 @@ def drift(found: Drift, *, labels: bool = True) -> Figure:
     gammas, xy = found.gammas[order], found.xy[order]
     right_xyz = found.xyz[int(np.argmin(np.abs(found.gammas - found.monitor_gamma)))]
     look = np.asarray(color.xyz_to_rgb(right_xyz, "sRGB", encoded=True)).clip(0.0, 1.0)
-    monitor = color.system(found.system)
+    monitor = found.display
     with styled():
         figure = Figure(figsize=(9.4, 5.6), dpi=DPI, layout="constrained", facecolor="white")
         grid: Any = figure.add_gridspec(2, 2, width_ratios=(1.9, 1.0))

@@ -19,7 +19,7 @@ def fit(
     readings: Annotated[
         Path,
         typer.Argument(
-            metavar="READINGS", help="CSV: code, and luminances in the other columns.", show_default=False
+            metavar="READINGS", help="CSV: code and luminances, or a table of calibrate.", show_default=False
         ),
     ],
     model: Annotated[
@@ -41,6 +41,9 @@ def fit(
             "--white", metavar="CODE", help="Code of white (the largest measured).", show_default=False
         ),
     ] = None,
+    black: Annotated[
+        float, typer.Option("--black", metavar="L", help="Luminance to take off every reading first.")
+    ] = 0.0,
     plot: Annotated[
         Path | None,
         typer.Option(
@@ -49,7 +52,9 @@ def fit(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Fit the gamma of a monitor to luminances measured at some codes, column by column.
+    """Fit the gamma of a monitor to luminances measured at some codes, column by column, with its error.
+
+    For a whole description, with black and primaries, of a table of r, g, b and X, Y, Z: calibrate fit.
 
     \b
     power               L = peak v^γ, on logarithms, with a cutoff
@@ -71,9 +76,9 @@ def fit(
         style.check_format(plot)
     measured = read_readings(readings)
     fits = {}
-    for name, luminances in measured.luminances.items():
+    for name, column in measured.items():
         try:
-            fits[name] = fit_gamma(measured.codes, luminances, model, cutoff=cutoff, white_code=white)
+            fits[name] = fit_gamma(*column, model, cutoff=cutoff, white_code=white, black=black)
         except UsageError as error:
             raise UsageError(f"{readings}, {name}: {error}") from error
     if json:
@@ -84,7 +89,7 @@ def fit(
     if plot is not None:
         from illuminant.plots.gamma_curves import fitted
 
-        style.save(fitted(measured.codes, measured.luminances, fits), plot)
+        style.save(fitted(measured, fits), plot)
         note(f"{plot}: readings, fit and residuals")
 
 
@@ -123,6 +128,12 @@ def phosphors(
         ),
     ],
     gamma: Annotated[float, typer.Option("--gamma", metavar="G", help="γ of the monitor.")] = 2.2,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o", "--output", metavar="FILE", help="Description to write (.toml).", show_default=False
+        ),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Make the matrix of a monitor from the chromaticities of its phosphors, printed or measured.
@@ -130,12 +141,22 @@ def phosphors(
     \b
     Example:
       illuminant gamma phosphors monitor.csv
+      illuminant gamma phosphors monitor.csv --gamma 2.35 -o monitor.toml
     """
-    from illuminant.cli.report import emit_json
+    from illuminant import output as files
+    from illuminant.cli.report import emit_json, note
     from illuminant.display.gamma.phosphors import COLOURS, read_phosphors
+    from illuminant.errors import UsageError
 
+    if output is not None:
+        if output.suffix.lower() != ".toml":
+            raise UsageError(f"{output}: a description is saved as .toml.")
+        files.check(output)
     found = read_phosphors(readings)
-    system = found.system(gamma, readings.stem)
+    monitor = found.display(gamma, readings.stem)
+    if output is not None:
+        monitor.save(output, "From the chromaticities of its phosphors (`illuminant gamma phosphors`).")
+        note(f"{output}: description of {monitor.name}; use it by --display {output}")
     if json:
         emit_json(
             {
@@ -143,9 +164,9 @@ def phosphors(
                 "white": found.white,
                 "luminances": found.luminances,
                 "additivity": found.additivity,
-                "transfer": system.transfer,
-                "to_xyz": system.to_xyz,
-                "from_xyz": system.from_xyz,
+                "transfer": monitor.response,
+                "to_xyz": monitor.to_xyz_matrix,
+                "from_xyz": monitor.from_xyz_matrix,
             }
         )
         return
@@ -153,7 +174,7 @@ def phosphors(
         typer.echo(f"{name:<6} x {x:.4f}  y {y:.4f}")
     if found.additivity is not None:
         typer.echo(f"guns together {100 * found.additivity:.1f} % of white")
-    for title, rows in (("RGB to XYZ", system.to_xyz), ("XYZ to RGB", system.from_xyz)):
+    for title, rows in (("RGB to XYZ", monitor.to_xyz_matrix), ("XYZ to RGB", monitor.from_xyz_matrix)):
         typer.echo(title)
         for row in rows:
             typer.echo("  ".join(f"{value:9.5f}" for value in row))

@@ -44,8 +44,8 @@ def drift(
             "--gammas", metavar="A,B", help="γ' of the corrections (1.4 to 3 by 0.2).", show_default=False
         ),
     ] = None,
-    system: Annotated[
-        str, typer.Option("--primaries", metavar="NAME", help="RGB system of the monitor.")
+    display: Annotated[
+        str, typer.Option("--primaries", metavar="NAME", help="Those of a display: a name, .toml or .icc.")
     ] = "book NTSC",
     json: Json = False,
 ) -> None:
@@ -63,10 +63,10 @@ def drift(
 
     style.check_format(output)
     wanted = numbers(gammas, "--gammas") if gammas is not None else list(GAMMAS)
-    found = study(wanted, monitor_gamma=gamma, system=system)
+    found = study(wanted, monitor_gamma=gamma, display=display)
     style.save(drawn(found), output)
     if found.outside:
-        warning(f"{', '.join(found.outside)}: outside of {found.system}, clamped.")
+        warning(f"{', '.join(found.outside)}: outside of {found.display.name}, clamped.")
     mean, largest = found.difference.mean(axis=1), found.difference.max(axis=1)
     coloured = found.saturation[:, found.saturation[0] > 0]
     if json:

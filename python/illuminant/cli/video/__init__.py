@@ -19,7 +19,6 @@ app.command("fields", short_help="Weave two pictures into a frame, or split it."
 app.command("monochrome", short_help="What a black and white set shows.")(pictures.monochrome)
 app.command("safe", short_help="Draw safe action and safe title.")(pictures.safe)
 app.command("components", short_help="A picture in Y, I and Q.")(pictures.components)
-app.command("wedges", short_help="Resolving wedges in Y, I and Q.")(drawing.wedges)
 app.command("gamut", short_help="Plot the RGB cube in Y I Q.")(drawing.gamut)
 
 

@@ -10,7 +10,7 @@ import typer
 if TYPE_CHECKING:
     from illuminant.display.video.standard import Bandwidth
 
-__all__ = ["Bands", "Correct", "Out", "Picture", "bandwidth", "size_of"]
+__all__ = ["Bands", "Correct", "Out", "Picture", "bandwidth"]
 
 Picture = Annotated[Path, typer.Argument(metavar="IN", help="Picture (.png).", show_default=False)]
 Out = Annotated[Path, typer.Argument(metavar="OUT", help="Picture to be written (.png).", show_default=False)]
@@ -47,23 +47,3 @@ def bandwidth(text: str | None) -> Bandwidth:
     except ValueError:
         raise UsageError(f"--bandwidth {text}: expected three numbers in MHz, such as 4.2,1.3,0.5.") from None
     return Bandwidth(y, i, q)
-
-
-def size_of(text: str) -> tuple[int, int]:
-    """Width and height as `640x480`.
-
-    Raises:
-        UsageError: anything else.
-
-    Example:
-        >>> size_of("640x480")
-        (640, 480)
-    """
-    import re
-
-    from illuminant.errors import UsageError
-
-    found = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
-    if not found:
-        raise UsageError(f"--size {text}: expected width and height in pixels, such as 640x480.")
-    return int(found[1]), int(found[2])

@@ -89,7 +89,8 @@ def check(
     """
     from illuminant.cli.report import emit_json, note, sentence
     from illuminant.cli.video import argument
-    from illuminant.display.video import black_and_white, frame_buffer, hazards, legality, safe_areas
+    from illuminant.display.patterns import safe_areas
+    from illuminant.display.video import black_and_white, frame_buffer, hazards, legality
     from illuminant.errors import UsageError
 
     names = [*(name.replace(" ", "-") for name in hazards.HAZARDS), "isoluminant", "action", "title"]
@@ -109,8 +110,8 @@ def check(
     masks["isoluminant"] = black_and_white.isoluminant(values)
     edges = safe_areas.detail(values, threshold)
     percent = {name: 100.0 * float(mask.mean()) for name, mask in masks.items()}
-    percent["action"] = 100.0 * safe_areas.outside_share(edges, safe_areas.ACTION)
-    percent["title"] = 100.0 * safe_areas.outside_share(edges, safe_areas.TITLE)
+    percent["action"] = 100.0 * safe_areas.outside(edges, safe_areas.ACTION)
+    percent["title"] = 100.0 * safe_areas.outside(edges, safe_areas.TITLE)
     low, high = legality.composite_range(values)
     facts = {"percent": percent, "lowest_ire": float(low.min()), "highest_ire": float(high.max())}
     if json:
@@ -151,7 +152,8 @@ def _limits(text: str, chroma: float | None) -> Limits:
 
 def _marked(values: Float64, measure: str, masks: dict[str, Mask], edges: Mask) -> Float64:
     """The picture in grey, darker, with what fails in red."""
-    from illuminant.display.video import black_and_white, safe_areas
+    from illuminant.display.patterns import safe_areas
+    from illuminant.display.video import black_and_white
 
     height, width = values.shape[:2]
     if measure in ("action", "title"):

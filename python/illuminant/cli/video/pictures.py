@@ -34,25 +34,35 @@ def monochrome(picture: Picture, out: Out) -> None:
         )
 
 
-def safe(picture: Picture, out: Out) -> None:
-    """Draw safe action (90 %) and safe title (80 % of width and height) over a picture.
+def safe(
+    picture: Picture,
+    out: Out,
+    standard: Annotated[
+        str,
+        typer.Option("--standard", metavar="NAME", help="RP 27.3 (90 and 80 %) or ST 2046-1 (93 and 90 %)."),
+    ] = "RP 27.3",
+) -> None:
+    """Draw safe action and safe title over a picture, in black or white, whichever is seen.
+
+    On a plain field they are the pattern safe-areas.
 
     \b
     Example:
       illuminant video safe titles.png framed.png
+      illuminant video safe titles.png framed.png --standard "ST 2046-1"
     """
     from illuminant.cli.report import note
-    from illuminant.display.video import frame_buffer, safe_areas
+    from illuminant.display.patterns import safe_areas
+    from illuminant.display.video import frame_buffer
 
     frame_buffer.check_png(out)
     buffer = frame_buffer.opened(picture)
     values = buffer.values
-    drawn = safe_areas.overlay(values)
-    frame_buffer.with_values(buffer, drawn, "safe action and safe title, RP 27.3").save(out)
+    drawn = safe_areas.overlay(values, standard=standard)
+    frame_buffer.with_values(buffer, drawn, f"safe action and safe title, {standard}").save(out)
     height, width = values.shape[:2]
-    action, title = (
-        safe_areas.rectangle(width, height, part) for part in (safe_areas.ACTION, safe_areas.TITLE)
-    )
+    parts = safe_areas.fractions(standard)
+    action, title = (safe_areas.rectangle(width, height, part) for part in parts)
     note(f"{out}: safe action {_span(action)}, safe title {_span(title)}")
 
 

@@ -25,8 +25,8 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from illuminant.color.axes import rgb_to_yiq, yiq_to_rgb
 from illuminant.display.patterns.color_bars import bars_75
-from illuminant.display.patterns.composite import rgb_to_yiq, yiq_to_rgb
 
 if TYPE_CHECKING:
     import numpy as np
@@ -56,11 +56,11 @@ class Decoder:
         """RGB (..., 3) that the decoder makes of a picture's RGB after encoding; not clamped."""
         import numpy as np
 
-        yiq = rgb_to_yiq(signals)
+        yiq = np.asarray(rgb_to_yiq(signals, matrix="standard"), np.float64)
         c, s = math.cos(math.radians(self.hue_deg)), math.sin(math.radians(self.hue_deg))
         i, q = yiq[..., 1], yiq[..., 2]
         turned = [yiq[..., 0], self.chroma * (i * c - q * s), self.chroma * (i * s + q * c)]
-        return yiq_to_rgb(np.stack(turned, axis=-1))
+        return np.asarray(yiq_to_rgb(np.stack(turned, axis=-1), matrix="standard"), np.float64)
 
 
 def split(decoder: Decoder) -> tuple[float, float]:

@@ -15,7 +15,6 @@ Example:
 
 from __future__ import annotations
 
-import json
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -71,18 +70,7 @@ def to_display(model: Characterisation, name: str) -> Display:
 
 def save(path: str | os.PathLike[str], model: Characterisation, name: str) -> None:
     """Write the description as a TOML file that `illuminant.display.displays.named` reads, atomically."""
-    found = to_display(model, name).to_dict()
-    lines = ["# A display described by readings (`illuminant calibrate fit`); luminances in cd/m².", ""]
-    lines += [f"{key} = {_toml(value)}" for key, value in found.items()]
-    output.write_bytes(path, ("\n".join(lines) + "\n").encode())
-
-
-def _toml(value: Any) -> str:
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, (list, tuple)):
-        return f"[{', '.join(_toml(item) for item in value)}]"
-    return repr(value)
+    to_display(model, name).save(path, "Described by readings (`illuminant calibrate fit`).")
 
 
 def save_icc(path: str | os.PathLike[str], model: Characterisation, name: str) -> None:

@@ -8,31 +8,31 @@ with an offset o_k = 1 − g_k, so that l_k rises from 0 at code 0 to 1 at full 
 offset below 0 cuts the gun off above black. K is black: the room's light on the glass, and what guns that are not cut
 off give at code 0. This is the response `gain-offset-gamma` of `illuminant.display.displays`.
 
-All 18 numbers are found together from all readings, by
-Levenberg and Marquardt's method on residuals in units of the instrument's error √(floor² + (relative · reading)²); so
-dark readings, which err most, count least (book 5.1.2: the low end must be cut off, and where is trial and error).
+All 18 numbers are found together from all readings, by `illuminant.display.least_squares` on residuals in units of the
+instrument's error √(floor² + (relative · reading)²); so dark readings, which err most, count least (book 5.1.2: the low
+end must be cut off, and where is trial and error). It starts from the γ of each gun by itself, the straight line of
+logarithms of `illuminant.display.gamma.fitting`.
 Residuals beyond 2.5 of their robust spread count less (Huber 1964), and readings beyond 6 are named as outliers.
-
-`fit_gamma` is the book's fit of γ alone: readings less black, normalised, a line through (0, 0) of log I on log v, from
-a low cutoff up. Without one given it takes the cutoff with which γ has the least standard error.
 
 Units: cd/m². Valid for displays whose channels add; `additivity` says how far they do.
 
-References: Berns (1996), Methods for characterizing CRT displays, Displays 16; Marquardt (1963); book 5.1.2, eq 5.1.
+References: Berns (1996), Methods for characterizing CRT displays, Displays 16; book 5.1.2, eq 5.1.
 
 Example:
-    >>> import numpy as np
-    >>> v = np.linspace(0.1, 1.0, 10)
-    >>> round(fit_gamma(v, 80.0 * v**2.3 + 0.5, black=0.5).gamma, 6)
-    2.3
+    >>> from illuminant.display.calibration import monitor, readings
+    >>> codes = readings.plan()
+    >>> fit(readings.Readings(codes, monitor.Monitor().xyz(codes))).model.gamma.round(6).tolist()
+    [2.2, 2.2, 2.2]
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from illuminant.display.gamma.fitting import fit_gamma
+from illuminant.display.least_squares import minimised
 from illuminant.errors import DataError, UsageError
 
 if TYPE_CHECKING:
@@ -43,28 +43,16 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Characterisation", "Fit", "Gamma", "fit", "fit_gamma"]
+__all__ = ["Characterisation", "Fit", "fit"]
 
 GUNS = ("red", "green", "blue")
 
 HUBER, OUTLIER = 2.5, 6.0
 """Residuals, in robust standard deviations, that count less, and that are called outliers."""
 
-
-class Gamma(NamedTuple):
-    """γ by itself.
-
-    Attributes:
-        gamma: the exponent.
-        error: its standard error.
-        low: lowest normalised intensity that was used.
-        used: readings used.
-    """
-
-    gamma: float
-    error: float
-    low: float
-    used: int
+# Bounds of primaries, black, gain and γ.
+_LOW = (*[float("-inf")] * 9, *[0.0] * 3, *[0.5] * 3, *[0.3] * 3)
+_HIGH = (*[float("inf")] * 12, *[2.0] * 3, *[8.0] * 3)
 
 
 @dataclass(frozen=True)
@@ -162,49 +150,6 @@ class Fit:
     steps: int
 
 
-def fit_gamma(
-    codes: ArrayLike, intensities: ArrayLike, *, black: float = 0.0, low: float | None = None
-) -> Gamma:
-    """γ of one channel, by a line on logarithms (book 5.1.2).
-
-    Args:
-        codes: code values above 0, up to 1.
-        intensities: luminances, or any quantity proportional to light.
-        black: of the same, with code 0; taken off.
-        low: normalised intensity below which readings are left out; default the best.
-
-    Raises:
-        UsageError: fewer than three readings remain.
-    """
-    import numpy as np
-
-    v: Array = np.asarray(codes, np.float64).ravel()
-    i: Array = np.asarray(intensities, np.float64).ravel()
-    if v.shape != i.shape or v.size == 0:
-        raise UsageError(f"γ needs as many intensities as code values, not {i.size} and {v.size}.")
-    above = np.asarray(i - black, np.float64)
-    i = above / max(float(np.max(above)), 1e-300)
-    usable = (i > 0.0) & (v > 0.0) & (v < 1.0)
-    x, y = np.log(v[usable]), np.log(i[usable])
-
-    def through_white(keep: NDArray[np.bool_], least: float) -> Gamma | None:
-        count = int(keep.sum())
-        if count < 3:
-            return None
-        square = float((x[keep] ** 2).sum())
-        gamma = float((x[keep] * y[keep]).sum()) / square
-        left = y[keep] - gamma * x[keep]
-        return Gamma(gamma, float(np.sqrt((left**2).sum() / (count - 1) / square)), least, count)
-
-    cutoffs = [low] if low is not None else np.sort(np.exp(y)).tolist()
-    found = [
-        gamma for cut in cutoffs if (gamma := through_white(np.exp(y) >= cut * (1 - 1e-12), cut)) is not None
-    ]
-    if not found:
-        raise UsageError("γ needs three readings or more between black and white, above the low cutoff.")
-    return min(found, key=lambda gamma: gamma.error)
-
-
 def fit(readings: Readings, *, relative: float = 0.003, floor: float = 0.005, low: float = 0.0) -> Fit:
     """The description that fits all readings best.
 
@@ -230,7 +175,14 @@ def fit(readings: Readings, *, relative: float = 0.003, floor: float = 0.005, lo
     numbers = start
     scaled = np.zeros_like(weights)
     for _ in range(4):
-        numbers, taken = _marquardt(numbers, codes, xyz, weights * robust)
+        numbers, taken = minimised(
+            lambda at: (_model(at).xyz(codes).ravel(), _jacobian(at, codes)),
+            xyz.ravel(),
+            numbers,
+            weights=(weights * robust).ravel(),
+            low=_LOW,
+            high=_HIGH,
+        )
         steps += taken
         scaled = (_model(numbers).xyz(codes) - xyz) / spread
         # The spread of readings that fit is not always what the instrument's maker says.
@@ -293,38 +245,6 @@ def _start(readings: Readings) -> Array:
 
 def _model(numbers: Array) -> Characterisation:
     return Characterisation(numbers[:9].reshape(3, 3), numbers[9:12], numbers[12:15], numbers[15:18])
-
-
-def _marquardt(numbers: Array, codes: Array, xyz: Array, weights: Array) -> tuple[Array, int]:
-    """The least sum of squares of weighted residuals, and how many steps led there."""
-    import numpy as np
-
-    def residuals(at: Array) -> Array:
-        return np.asarray(((_model(at).xyz(codes) - xyz) * weights).ravel())
-
-    damping, now = 1e-3, residuals(numbers)
-    for step in range(1, 201):
-        jacobian = _jacobian(numbers, codes) * weights.ravel()[:, None]
-        normal, slope = jacobian.T @ jacobian, jacobian.T @ now
-        scale = np.diag(normal) + 1e-12 * np.trace(normal)
-        improved = False
-        while damping < 1e12:
-            trial = numbers - np.linalg.solve(normal + damping * np.diag(scale), slope)
-            trial[12:15] = np.clip(trial[12:15], 0.5, 2.0)
-            trial[15:18] = np.clip(trial[15:18], 0.3, 8.0)
-            trial[9:12] = np.maximum(trial[9:12], 0.0)
-            then = residuals(trial)
-            if then @ then < now @ now:
-                improved = True
-                break
-            damping *= 4.0
-        if not improved:
-            return numbers, step
-        gained = float(now @ now - then @ then) / max(float(now @ now), 1e-300)
-        numbers, now, damping = trial, then, max(damping / 8.0, 1e-12)
-        if gained < 1e-12 or now @ now < 1e-20:
-            return numbers, step
-    return numbers, 200
 
 
 def _jacobian(numbers: Array, codes: Array) -> Array:

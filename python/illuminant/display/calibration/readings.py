@@ -27,10 +27,10 @@ import math
 import os
 import re
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from illuminant import output
+from illuminant.display.table_text import text_of
 from illuminant.errors import DataError, UsageError
 
 if TYPE_CHECKING:
@@ -154,19 +154,7 @@ def read(path: str | os.PathLike[str], *, empty: bool = False) -> Readings:
     Raises:
         DataError: the file cannot be read, or a line is wrong; file and line are named.
     """
-    path = Path(path)
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise DataError(f"The readings cannot be read: {reason}.", str(path)) from error
-    if len(content) > 10_000_000:
-        raise DataError("This is no table of readings: it is larger than 10 MB.", str(path))
-    try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise DataError("This is no table of readings: it is not text in UTF-8.", str(path)) from error
-    return parse(text, str(path), empty=empty)
+    return parse(text_of(path, "The readings"), os.fspath(path), empty=empty)
 
 
 def typed(words: str, units: str) -> list[float]:

@@ -27,6 +27,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from illuminant import output
+from illuminant.display.table_text import text_of
 from illuminant.errors import DataError, UsageError
 
 __all__ = ["KINDS", "Entry", "Schedule", "append", "drift", "read", "schedule"]
@@ -126,10 +127,7 @@ def read(path: str | os.PathLike[str]) -> list[Entry]:
     path = Path(path)
     if not path.exists():
         return []
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise DataError("The record cannot be read: it is no text file in UTF-8.", str(path)) from error
+    text = text_of(path, "The record")
     entries: list[Entry] = []
     lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
     if not lines or lines[0][1].strip() != COLUMNS:

@@ -9,7 +9,7 @@ with γ' > γ and too dark with γ' < γ. Of a colour the largest component move
 with γ' > γ, and runs to a primary, or to the sum of two that are alike, with γ' < γ (book 5.1.2, figure 5.5). Contrast,
 the slope of log intensity, is γ/γ' for greys.
 
-The colours are the 24 of the ColorChecker under D65, from the reflectances of the library, in a monitor's linear RGB.
+The colours are the 24 of `illuminant.display.patterns.color_checker` in a monitor's linear RGB.
 Differences are CIEDE2000 against the right display, in L*a*b* with the monitor's white.
 
 Example:
@@ -23,7 +23,7 @@ Example:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from illuminant.display.gamma.response import correction, positive, response
@@ -33,11 +33,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from illuminant.color.rgb import System
+    from illuminant.display.displays import Display
 
     Float64 = NDArray[np.float64]
 
-__all__ = ["GAMMAS", "MONITOR", "Chart", "Drift", "chart", "shown", "study"]
+__all__ = ["GAMMAS", "MONITOR", "Drift", "shown", "study"]
 
 GAMMAS = (1.4, 1.6, 1.8, 2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 """The gammas of correction of figure 5.5, when none are named."""
@@ -46,23 +46,6 @@ MONITOR = "book NTSC"
 """The book's monitor; all 24 colours lie inside of it."""
 
 WHITE, BLACK = "white 9.5", "black 2"
-
-
-@dataclass(frozen=True, eq=False)
-class Chart:
-    """The ColorChecker on a monitor.
-
-    Attributes:
-        names: (24) of the patches.
-        linear: (24, 3) RGB, 0 to 1; the white patch has Y of its reflectance.
-        outside: names of those that the monitor cannot show and whose components were clamped.
-        system: name of the monitor's system.
-    """
-
-    names: tuple[str, ...]
-    linear: Float64
-    outside: tuple[str, ...]
-    system: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +62,7 @@ class Drift:
         saturation: (n, 24) distance from the white in u'v', divided by that of the right display; nan for greys.
         contrast: (n,) log of the ratio of the white patch to the black patch, divided by that of the right display.
         outside: names of the patches clamped.
-        system: name of the monitor's system.
+        display: the monitor; of its description primaries and white count.
     """
 
     names: tuple[str, ...]
@@ -91,7 +74,7 @@ class Drift:
     saturation: Float64
     contrast: Float64
     outside: tuple[str, ...]
-    system: str
+    display: Display
 
     @property
     def xy(self) -> Float64:
@@ -99,38 +82,6 @@ class Drift:
         import numpy as np
 
         return np.asarray(self.xyz[..., :2] / self.xyz.sum(axis=-1, keepdims=True))
-
-
-def chart(system: System = MONITOR) -> Chart:
-    """The 24 colours under D65 in the linear RGB of a monitor.
-
-    Args:
-        system: an RGB system of `illuminant.color` or its name.
-
-    Raises:
-        UsageError: there is no such system.
-
-    Example:
-        >>> found = chart("sRGB")
-        >>> found.names[17], found.outside
-        ('cyan', ('cyan',))
-    """
-    import numpy as np
-
-    from illuminant import color, spectra
-
-    monitor = color.system(system)
-    group = "ColorChecker/"
-    names = [name for name in spectra.names("reflectance") if name.startswith(group)]
-    curves = [spectra.load(name) for name in names]
-    xyz = np.stack(
-        [color.spectra_to_xyz(curve.values, curve.wavelengths_nm, illuminant="D65") for curve in curves]
-    )
-    rgb = np.asarray(color.xyz_to_rgb(xyz, monitor), np.float64)
-    short = tuple(name.removeprefix(group) for name in names)
-    beyond = np.flatnonzero(((rgb < 0) | (rgb > 1)).any(axis=1))
-    outside = tuple(short[number] for number in beyond)
-    return Chart(short, rgb.clip(0.0, 1.0), outside, monitor.name)
 
 
 def shown(linear: ArrayLike, correction_gamma: float, monitor_gamma: float = 2.2) -> Float64:
@@ -152,28 +103,32 @@ def shown(linear: ArrayLike, correction_gamma: float, monitor_gamma: float = 2.2
     return response(code, positive(monitor_gamma, "The γ of the monitor"))
 
 
-def study(gammas: Sequence[float] = GAMMAS, *, monitor_gamma: float = 2.2, system: System = MONITOR) -> Drift:
+def study(
+    gammas: Sequence[float] = GAMMAS, *, monitor_gamma: float = 2.2, display: str | Display = MONITOR
+) -> Drift:
     """The drift of the ColorChecker with the gamma of correction (book figure 5.5).
 
     Args:
         gammas: γ' of the corrections.
         monitor_gamma: γ of the monitor.
-        system: the monitor's primaries and white.
+        display: a display or its name, for the monitor's primaries and white.
 
     Raises:
-        UsageError: a γ is not above 0, none is given, or there is no such system.
+        UsageError: a γ is not above 0, none is given, or there is no such display.
     """
     import numpy as np
 
     from illuminant import color
+    from illuminant.display.displays import named
+    from illuminant.display.patterns import color_checker
 
     if not len(gammas):
         raise UsageError("A drift needs at least one γ of correction.")
-    monitor = color.system(system)
-    patches = chart(monitor)
-    linear = np.stack([shown(patches.linear, gamma, monitor_gamma) for gamma in gammas])
-    everything = np.concatenate([patches.linear[None], linear])
-    xyz = np.asarray(color.rgb_to_xyz(everything, monitor), np.float64)
+    monitor = named(display)
+    patches = color_checker.patches(replace(monitor, response="linear", peak=1.0, black=0.0, reference=None))
+    right = patches.linear.clip(0.0, 1.0)
+    linear = np.stack([shown(right, gamma, monitor_gamma) for gamma in gammas])
+    xyz = np.concatenate([right[None], linear]) @ monitor.to_xyz_matrix.T
     white = color.white_xyz(monitor.white)
     lab = color.xyz_to_lab(xyz, white)
     uv = color.xyz_to_uvy(xyz)[..., :2] - color.xyz_to_uvy(white)[:2]
@@ -193,5 +148,5 @@ def study(gammas: Sequence[float] = GAMMAS, *, monitor_gamma: float = 2.2, syste
         saturation,
         contrast[1:] / contrast[0],
         patches.outside,
-        monitor.name,
+        monitor,
     )

@@ -21,9 +21,10 @@ The first term falls as low readings join, since they are far out on the axis of
 do not lie on the line of those above. At least five readings stay.
 
 **offset** and **gain-offset-gamma** use all readings, also those of 0, unless a cutoff is given. A reading has the
-error s (L + m): relative for bright fields, that of the meter for dark ones. Gauss–Newton steps, damped (Levenberg
-1944; Marquardt 1963), minimise Σ ((reading − L) / (L + m))²; among ten values of m that of the largest likelihood is
-taken.
+error s (L + m): relative for bright fields, that of the meter for dark ones. `illuminant.display.least_squares`
+minimises Σ ((reading − L) / (L + m))²; among ten values of m that of the largest likelihood is taken.
+
+Where black was read by itself, it can be taken off first (`black`), as the book does.
 
 Standard errors are those of the linearised least squares, s² (JᵀJ)⁻¹, and shrink with the root of the number of
 readings. They hold for readings with independent errors; a wrong model shows in the residuals, and its γ is off by more
@@ -43,12 +44,13 @@ Example:
 
 from __future__ import annotations
 
+import functools
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from illuminant.display.gamma.response import positive
+from illuminant.display.least_squares import minimised
 from illuminant.errors import UsageError, suggestion
 
 if TYPE_CHECKING:
@@ -89,6 +91,7 @@ class GammaFit:
         scatter: root mean square of the relative error that the readings used have, s.
         meter: m, cd/m²; 0 for `power`.
         white_code: code of white.
+        black: what was taken off the readings first, cd/m².
     """
 
     model: Model
@@ -102,16 +105,17 @@ class GammaFit:
     scatter: float
     meter: float
     white_code: float
+    black: float = 0.0
 
     @property
     def peak(self) -> float:
-        """Luminance of white above the floor, cd/m²."""
+        """Luminance of white above floor and black, cd/m²."""
         return self.parameters["peak"]
 
     @property
     def floor(self) -> float:
-        """Luminance that is there at every code, cd/m²; 0 for models without one."""
-        return self.parameters.get("floor", 0.0)
+        """Luminance that is there at every code, cd/m²: what was fitted, and what was taken off."""
+        return self.parameters.get("floor", 0.0) + self.black
 
     @property
     def gain(self) -> float:
@@ -124,7 +128,7 @@ class GammaFit:
 
         v = np.asarray(codes, np.float64) / self.white_code
         parameters = np.array([self.parameters[name] for name in _PARAMETERS[self.model]])
-        return _value_and_slopes(self.model, v.reshape(-1), parameters)[0].reshape(v.shape)
+        return _value_and_slopes(self.model, v.reshape(-1), parameters)[0].reshape(v.shape) + self.black
 
 
 def fit_gamma(
@@ -134,6 +138,7 @@ def fit_gamma(
     *,
     cutoff: float | None = None,
     white_code: float | None = None,
+    black: float = 0.0,
 ) -> GammaFit:
     """Fit a model of this module to readings.
 
@@ -144,6 +149,7 @@ def fit_gamma(
         cutoff: luminance below which readings are left out, in their unit; None: automatic for `power`, and all
             readings for the others.
         white_code: code of white; None: the largest that was measured.
+        black: luminance to take off all readings first; a cutoff is a luminance above it.
 
     Raises:
         UsageError: the arrays do not go together, too few readings are left, they do not rise, or a name is not known.
@@ -156,7 +162,9 @@ def fit_gamma(
             f'There is no model "{model}": expected {", ".join(MODELS)}.{" " + hint if hint else ""}'
         )
     kind: Any = model
-    code, read = _checked(codes, luminances)
+    if not math.isfinite(black):
+        raise UsageError(f"Black is a luminance, not {black}.")
+    code, read = _checked(codes, luminances, black)
     white = positive(float(code.max()) if white_code is None else white_code, "The code of white")
     v = code / white
     if cutoff is not None and not (cutoff >= 0 and math.isfinite(cutoff)):
@@ -181,9 +189,9 @@ def fit_gamma(
     if not (np.isfinite(values).all() and values[0] > 0):
         raise UsageError("No gamma fits these readings: expected luminances that rise with the code.")
     deviations = np.sqrt(np.maximum(np.diag(covariance), 0.0))
-    fitted = _value_and_slopes(kind, v, values)[0]
+    fitted = _value_and_slopes(kind, v, values)[0] + black
     with np.errstate(divide="ignore", invalid="ignore"):
-        residuals = np.where(fitted > 0, read / fitted - 1.0, np.nan)
+        residuals = np.where(fitted > 0, (read + black) / fitted - 1.0, np.nan)
     names = _PARAMETERS[model]
     return GammaFit(
         kind,
@@ -197,17 +205,18 @@ def fit_gamma(
         scatter,
         meter,
         white,
+        black,
     )
 
 
-def _checked(codes: ArrayLike, luminances: ArrayLike) -> tuple[Float64, Float64]:
+def _checked(codes: ArrayLike, luminances: ArrayLike, black: float) -> tuple[Float64, Float64]:
     """Two lists of numbers of one length."""
     import numpy as np
 
     from illuminant.color.triples import floating
 
     code = np.asarray(floating(codes, "codes"), np.float64)
-    read = np.asarray(floating(luminances, "luminances"), np.float64)
+    read = np.asarray(floating(luminances, "luminances"), np.float64) - black
     if code.ndim != 1 or code.shape != read.shape or not code.size:
         raise UsageError(
             f"Readings are two lists of one length, and the shapes are {code.shape} and {read.shape}."
@@ -217,7 +226,7 @@ def _checked(codes: ArrayLike, luminances: ArrayLike) -> tuple[Float64, Float64]
     if code.min() < 0:
         raise UsageError(f"A code is 0 or above, not {code.min():g}.")
     if read.max() <= 0:
-        raise UsageError("No luminance is above 0.")
+        raise UsageError(f"No luminance is above {f'black, {black:g}' if black else '0'}.")
     return code, read
 
 
@@ -286,6 +295,10 @@ def _value_and_slopes(model: Model, v: Float64, parameters: Float64) -> tuple[Fl
     return peak * shape + floor, np.stack(slopes, axis=1)
 
 
+def _weights(meter: float, value: Float64) -> Float64:
+    return 1.0 / (abs(value) + meter)
+
+
 def _likeliest(model: Model, v: Float64, read: Float64) -> tuple[Float64, Float64, float, float]:
     """Parameters, covariance, scatter and m of the fit with the largest likelihood."""
     import numpy as np
@@ -298,8 +311,13 @@ def _likeliest(model: Model, v: Float64, read: Float64) -> tuple[Float64, Float6
     best: tuple[float, Float64, Float64, float, float] | None = None
     # From even weights to relative ones: dark readings, which lead astray, count for little until the rest is found.
     for meter in (*(peak * np.geomspace(0.1, 1e-5, 9)), 1e-6 * peak):
-        found = _gauss_newton(
-            lambda p: _value_and_slopes(model, v, p), read, parameters, float(meter), bounds
+        found, _ = minimised(
+            lambda p: _value_and_slopes(model, v, p),
+            read,
+            parameters,
+            weights=functools.partial(_weights, float(meter)),
+            low=(0.1, -np.inf, bounds[0]),
+            high=(10.0, np.inf, bounds[1]),
         )
         value, slopes = _value_and_slopes(model, v, found)
         size = np.abs(value) + meter
@@ -313,38 +331,3 @@ def _likeliest(model: Model, v: Float64, read: Float64) -> tuple[Float64, Float6
         parameters = found
     assert best is not None
     return best[1], best[2], best[3], best[4]
-
-
-def _gauss_newton(
-    model: Callable[[Float64], tuple[Float64, Float64]],
-    read: Float64,
-    start: Float64,
-    meter: float,
-    bounds: tuple[float, float],
-) -> Float64:
-    """Parameters of the least squares of (reading − L) / (L + m), weights renewed at each step."""
-    import numpy as np
-
-    parameters, damping = start, 1e-3
-    for _ in range(100):
-        value, slopes = model(parameters)
-        weight = 1.0 / (np.abs(value) + meter)
-        rest, jacobian = (read - value) * weight, slopes * weight[:, None]
-        normal = jacobian.T @ jacobian
-        diagonal = np.diag(np.maximum(np.diag(normal), 1e-30))
-        step = np.linalg.lstsq(normal + damping * diagonal, jacobian.T @ rest, rcond=None)[0]
-        trial = parameters + step
-        trial[0] = np.clip(trial[0], 0.1, 10.0)
-        trial[2] = np.clip(trial[2], *bounds)
-        # The weights stay those of this step, so that a step is judged by what it was made to lessen.
-        better = float((((read - model(trial)[0]) * weight) ** 2).sum()) <= float(rest @ rest) * (1 + 1e-12)
-        if not better:
-            damping *= 10.0
-            if damping > 1e12:
-                break
-            continue
-        moved = float(np.max(np.abs(trial - parameters) / np.maximum(np.abs(trial), 1e-6)))
-        parameters, damping = trial, max(damping / 10.0, 1e-12)
-        if moved < 1e-10:
-            break
-    return parameters

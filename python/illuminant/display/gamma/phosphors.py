@@ -6,8 +6,9 @@ the guns add up to white as a monitor's should:
 
     additivity = (Y_red + Y_green + Y_blue) / Y_white
 
-1 within a few per cent; below it, the power supply gives in under load, or black was not set right. The system that
-comes of the readings is that of `illuminant.color.monitor`: primaries and white alone (book eq 3.2).
+1 within a few per cent; below it, the power supply gives in under load, or black was not set right. The display that
+comes of the readings has their primaries and white (book eq 3.2), a power law, and the luminance of white where that
+was read. Readings of more levels give more: `illuminant.display.calibration`.
 
 Errors: `DataError` with file and line.
 """
@@ -20,10 +21,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from illuminant.display.table_text import rows, text_of
 from illuminant.errors import DataError
 
 if TYPE_CHECKING:
-    from illuminant.color.rgb import RgbSystem
+    from illuminant.display.displays import Display
 
 __all__ = ["COLOURS", "Phosphors", "read_phosphors"]
 
@@ -53,25 +55,26 @@ class Phosphors:
             return None
         return sum(self.luminances[:3]) / self.luminances[3]
 
-    def system(self, gamma: float = 2.2, name: str = "monitor") -> RgbSystem:
-        """The RGB system of these phosphors.
+    def display(self, gamma: float = 2.2, name: str = "monitor") -> Display:
+        """The display of these phosphors.
 
         Args:
             gamma: γ of the monitor.
-            name: what messages call it.
+            name: for people.
 
         Raises:
-            UsageError: primaries on one line, or a white outside of them.
+            UsageError: primaries on one line, a white outside of them, or a γ that is not above 0.
 
         Example:
             >>> found = Phosphors(((0.67, 0.33), (0.21, 0.71), (0.14, 0.08)), (0.313, 0.329))
-            >>> found.system(2.2).transfer
-            'gamma 2.2'
+            >>> found.display(2.4).response, found.display().peak
+            ('gamma 2.4', 100.0)
         """
-        from illuminant.color import monitor
+        from illuminant.display.displays import Display
         from illuminant.display.gamma.response import curve_name
 
-        return monitor(self.primaries, self.white, transfer=curve_name(gamma), name=name)
+        peak = {} if self.luminances is None else {"peak": self.luminances[3]}
+        return Display(name, self.primaries, self.white, curve_name(gamma), **peak)
 
 
 def read_phosphors(path: str | os.PathLike[str]) -> Phosphors:
@@ -89,21 +92,9 @@ def read_phosphors(path: str | os.PathLike[str]) -> Phosphors:
         0.98
     """
     path = Path(path)
-    try:
-        if path.stat().st_size > 1_000_000:
-            raise DataError("The file is too large for four colours.", str(path))
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise DataError(f"The file cannot be read: {reason}.", str(path)) from error
-    except UnicodeDecodeError as error:
-        raise DataError("The file is no text.", str(path)) from error
     columns: tuple[str, ...] | None = None
     found: dict[str, tuple[float, ...]] = {}
-    for line, content in enumerate(text.splitlines(), 1):
-        fields = [field.strip() for field in content.partition("#")[0].split(",")]
-        if fields == [""]:
-            continue
+    for line, fields in rows(text_of(path)):
         if columns is None:
             columns = tuple(fields[1:])
             if columns not in _COLUMNS:

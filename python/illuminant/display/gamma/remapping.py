@@ -13,7 +13,7 @@ made: levels fall together, others are skipped, and what lies outside the other'
 White goes to white: luminances are scaled by the ratio of the two whites, and a colour keeps its chromaticity. With
 `match="absolute"` a luminance stays what it is, in cd/m², and what the other display cannot reach is clamped.
 
-Shapes are (..., 3); bits are 1 to 16. A display is one of `illuminant.display.displays`, or anything with its methods.
+Shapes are (..., 3); bits are 1 to 16. A display is one of `illuminant.display.displays`.
 
 Example:
     >>> from illuminant.display.displays import named
@@ -25,7 +25,7 @@ Example:
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal
 
 from illuminant.display.gamma.lookup_table import quantised, top_code
 from illuminant.errors import UsageError
@@ -34,40 +34,14 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
+    from illuminant.display.displays import Display
+
     Codes = NDArray[np.unsignedinteger[Any]]
     Float64 = NDArray[np.float64]
 
-__all__ = ["Degradation", "Loss", "Match", "Monitor", "degradation", "loss", "remap"]
+__all__ = ["Degradation", "Loss", "Match", "degradation", "loss", "remap"]
 
 Match = Literal["relative", "absolute"]
-
-
-class Monitor(Protocol):
-    """What is needed of a display; all arrays are (..., 3)."""
-
-    @property
-    def name(self) -> str:
-        """What messages call it."""
-
-    @property
-    def shown_white(self) -> float:
-        """Luminance at which it shows diffuse white, cd/m²."""
-
-    @property
-    def white(self) -> tuple[float, float]:
-        """x and y of its white."""
-
-    def encode(self, linear: Any) -> Any:
-        """Code values 0 to 1 of linear RGB."""
-
-    def decode(self, code: Any) -> Any:
-        """Linear RGB of code values."""
-
-    def to_xyz(self, code: Any) -> Any:
-        """XYZ of code values, cd/m²."""
-
-    def from_xyz(self, xyz: Any) -> Any:
-        """Linear RGB of XYZ in cd/m², not clamped."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +101,7 @@ def _values(codes: ArrayLike, bits: int) -> Float64:
     return np.asarray(array / top, np.float64)
 
 
-def _mapped(values: Float64, source: Monitor, target: Monitor, match: str) -> Float64:
+def _mapped(values: Float64, source: Display, target: Display, match: str) -> Float64:
     """Linear RGB of the other display, not clamped."""
     import numpy as np
 
@@ -145,8 +119,8 @@ _ROUNDING = 1e-9
 
 def remap(
     codes: ArrayLike,
-    source: Monitor,
-    target: Monitor,
+    source: Display,
+    target: Display,
     *,
     bits: int = 8,
     out_bits: int | None = None,
@@ -178,8 +152,8 @@ def remap(
 
 def degradation(
     linear: ArrayLike,
-    source: Monitor,
-    target: Monitor,
+    source: Display,
+    target: Display,
     *,
     bits: int = 8,
     out_bits: int | None = None,
@@ -229,8 +203,8 @@ def degradation(
 def loss(
     before: ArrayLike,
     after: ArrayLike,
-    source: Monitor,
-    target: Monitor,
+    source: Display,
+    target: Display,
     *,
     bits: int = 8,
     out_bits: int | None = None,
@@ -272,7 +246,7 @@ def loss(
     )
 
 
-def _lab(codes: Any, bits: int, display: Monitor) -> Float64:
+def _lab(codes: Any, bits: int, display: Display) -> Float64:
     """L*a*b* of what a display shows of codes, under its own white."""
     import numpy as np
 

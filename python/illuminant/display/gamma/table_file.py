@@ -30,12 +30,12 @@ from pathlib import Path
 
 from illuminant import output
 from illuminant.display.gamma.lookup_table import LookupTable, code_type, top_code
+from illuminant.display.table_text import text_of
 from illuminant.errors import DataError, UsageError
 
 __all__ = ["FORMATS", "check_table_path", "read_table", "write_table"]
 
 FORMATS = (".csv", ".cube", ".spi1d")
-MAX_BYTES = 20_000_000
 
 
 def check_table_path(path: str | os.PathLike[str]) -> Path:
@@ -96,7 +96,7 @@ def read_table(path: str | os.PathLike[str], *, out_bits: int | None = None) -> 
     import numpy as np
 
     path = _known(path)
-    text = _text(path)
+    text = text_of(path)
     facts = {key: value.strip() for key, value in re.findall(r"^#\s*(\w+):(.*)$", text, re.MULTILINE)}
     if title := re.search(r'^TITLE\s+"([^"]*)"', text, re.MULTILINE):
         facts["name"] = title[1]
@@ -115,20 +115,6 @@ def read_table(path: str | os.PathLike[str], *, out_bits: int | None = None) -> 
         entries.append(math.floor(code + 0.5))
     name = facts.get("name") or path.stem
     return LookupTable(np.array(entries, code_type(bits)), in_bits, bits, name)
-
-
-def _text(path: Path) -> str:
-    """The text of a file, as far as it is one."""
-    try:
-        if path.stat().st_size > MAX_BYTES:
-            raise DataError("The file is too large for a table.", str(path))
-        return path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise DataError(
-            f"The file cannot be read: {(error.strerror or str(error)).lower()}.", str(path)
-        ) from error
-    except UnicodeDecodeError as error:
-        raise DataError("The file is no text.", str(path)) from error
 
 
 def _bits(path: Path, found: str | None, default: int) -> int:

@@ -4,13 +4,13 @@
 | --- | --- |
 | `field` | field, window, black, white |
 | `pluge` | pluge |
-| `color_bars`, `composite` | eia, smpte; their levels in IRE and as vectors |
+| `color_bars` | eia, smpte; their levels in IRE and as vectors |
 | `gamma_chart` | gamma |
 | `ramp` | ramp, steps, shadows |
 | `color_checker` | colorchecker |
 | `wedges` | wedges |
 | `convergence` | crosshatch, dots |
-| `safe_areas` | safe-areas |
+| `safe_areas` | safe-areas; what of a picture lies outside |
 
 Every pattern is a function of a `Screen` and options by keyword that gives code values (h, w, 3) from 0 to 1; a new
 one is its module, and an entry of `PATTERNS` below. The same arguments give the same bits.

@@ -32,11 +32,10 @@ Example:
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from illuminant.display.patterns.composite import SETUP, Levels, levels, vector
 from illuminant.display.patterns.screen import Screen
-from illuminant.errors import UsageError
+from illuminant.display.video.standard import Levels
 
 if TYPE_CHECKING:
     import numpy as np
@@ -48,7 +47,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BARS",
-    "BURST",
+    "BarLevels",
     "bar_levels",
     "bars_75",
     "blue_only",
@@ -72,11 +71,28 @@ BARS = {
 }
 """The seven bars at full level, in order."""
 
-BURST = 20.0
-"""Amplitude of the carriers −I and +Q, IRE: that of the colour burst."""
+SETUP = Levels().setup
+"""Level of black, IRE."""
 
 PLUGE_STEP = 0.04
 """Step of the bars of PLUGE from black, as a fraction of the range."""
+
+
+class BarLevels(NamedTuple):
+    """What a waveform monitor and a vectorscope show of a bar.
+
+    Attributes:
+        luminance: level without carrier, IRE.
+        carrier: amplitude from peak to peak, IRE.
+        low, high: where the carrier reaches, IRE.
+        angle_deg: on the vectorscope, from the axis of B−Y, 0 to 360; 0 without carrier.
+    """
+
+    luminance: float
+    carrier: float
+    low: float
+    high: float
+    angle_deg: float
 
 
 def bars_75() -> dict[str, Rgb]:
@@ -90,9 +106,16 @@ def bars_75() -> dict[str, Rgb]:
 
 
 def _carrier(axis: str, lift: bool, setup: float) -> Rgb:
-    if not 0.0 <= setup < 50.0:
-        raise UsageError(f"Setup is a level from 0 to 50 IRE, usually 7.5 or 0, not {setup:g}.")
-    signals = vector(axis, BURST, setup)
+    import numpy as np
+
+    from illuminant.color.axes import yiq_to_rgb
+
+    levels = Levels(setup=setup)
+    # The amplitude of the burst, on black.
+    amount = (-1.0 if axis[0] == "-" else 1.0) * levels.burst / levels.range
+    signals = np.asarray(
+        yiq_to_rgb([0.0, *((amount, 0.0) if axis[1] == "I" else (0.0, amount))], matrix="standard")
+    )
     r, g, b = (signals - min(0.0, signals.min()) if lift else signals).tolist()
     return r, g, b
 
@@ -107,7 +130,7 @@ def plus_q(*, lift: bool, setup: float = SETUP) -> Rgb:
     return _carrier("+Q", lift, setup)
 
 
-def bar_levels(*, lift: bool = False, setup: float = SETUP) -> dict[str, Levels]:
+def bar_levels(*, lift: bool = False, setup: float = SETUP) -> dict[str, BarLevels]:
     """Levels of every bar, as a waveform monitor and a vectorscope show them (figures 5.16 and 5.17).
 
     Args:
@@ -128,7 +151,22 @@ def bar_levels(*, lift: bool = False, setup: float = SETUP) -> dict[str, Levels]
         "+Q": plus_q(lift=lift, setup=setup),
         "black": (0.0, 0.0, 0.0),
     }
-    return {name: levels(color, setup) for name, color in colors.items()}
+    return {name: _levels(color, Levels(setup=setup)) for name, color in colors.items()}
+
+
+def _levels(color: Rgb, levels: Levels) -> BarLevels:
+    import numpy as np
+
+    from illuminant.color.axes import monochrome, rgb_to_yvu
+    from illuminant.display.video.legality import chroma_amplitude, composite_range
+    from illuminant.display.video.scopes import hue_and_amplitude
+
+    amplitude = float(chroma_amplitude(color, levels=levels))
+    low, high = (float(level) for level in composite_range(color, levels=levels))
+    angle = (
+        hue_and_amplitude(np.asarray(rgb_to_yvu(color)[:0:-1], np.float64))[0] if amplitude > 1e-7 else 0.0
+    )
+    return BarLevels(levels.of(float(monochrome(color))), 2.0 * amplitude, low, high, angle)
 
 
 def _seven(screen: Screen, values: Values, bottom: float) -> None:

@@ -40,10 +40,21 @@ if TYPE_CHECKING:
 
     from illuminant.display.displays import Display
     from illuminant.display.patterns.screen import Values
+    from illuminant.spectrum import Spectrum
 
     Array = NDArray[np.float64]
 
-__all__ = ["BOOK", "CHARTS", "NAMES", "Patches", "chart_xyz", "color_checker", "note", "patches"]
+__all__ = [
+    "BOOK",
+    "CHARTS",
+    "NAMES",
+    "Patches",
+    "chart_xyz",
+    "color_checker",
+    "note",
+    "patches",
+    "reflectances",
+]
 
 CHARTS = ("measured", "Ohta", "book", "book adapted")
 
@@ -92,6 +103,14 @@ class Patches:
     white: float
 
 
+def reflectances(chart: str = "measured") -> list[Spectrum]:
+    """The reflectances of the 24 patches of a chart, "measured" or "Ohta"."""
+    from illuminant import spectra
+
+    group = "ColorChecker Ohta" if chart == "Ohta" else "ColorChecker"
+    return [spectra.load(f"{group}/{name}") for name in NAMES]
+
+
 def chart_xyz(white: tuple[float, float], chart: str = "measured", light: str = "D65") -> Array:
     """XYZ (24, 3) of the chart beside a white, relative: a perfect diffuser has Y = 1.
 
@@ -117,8 +136,7 @@ def chart_xyz(white: tuple[float, float], chart: str = "measured", light: str = 
         return np.asarray(color.adapt(np.array(BOOK), BOOK[18], color.white_xyz(white), method="Bradford"))
     if spectra.load(light).quantity != "emission":
         raise UsageError(f"The light on a chart is a lamp, and {light!r} is none.")
-    group = "ColorChecker Ohta" if chart == "Ohta" else "ColorChecker"
-    curves = [spectra.load(f"{group}/{name}") for name in NAMES]
+    curves = reflectances(chart)
     nm = curves[0].wavelengths_nm
     values = np.stack([np.ones_like(curves[0].values), *(curve.values for curve in curves)])
     xyz = color.spectra_to_xyz(values, nm, illuminant=light)

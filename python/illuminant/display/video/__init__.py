@@ -9,14 +9,13 @@
 | `interlace` | two images as the two fields of a frame (figure 5.21) |
 | `legality`, `hazards` | colours the signal cannot carry and their repair; what a picture loses |
 | `cube` | the RGB cube in Y I Q, hot colours marked (figure 5.23) |
-| `wedges` | resolving wedges (figure 5.24) |
 | `scopes` | waveform monitor and vectorscope |
-| `safe_areas` | safe action and safe title (figure 5.28) |
 | `black_and_white` | what a black and white set shows, and which edges it loses (eq 5.5) |
 | `distribution` | faults between frame buffer and encoder (5.3) |
 | `frame_buffer` | code values of a PNG |
 
-The conversions themselves are in `illuminant.color.axes`.
+The conversions themselves are in `illuminant.color.axes`; bars, resolving wedges (figure 5.24) and safe areas (figure
+5.28) in `illuminant.display.patterns`.
 
 Example:
     >>> import numpy as np
@@ -24,7 +23,7 @@ Example:
     >>> image = np.zeros((6, 320, 3))
     >>> image[:, 160:] = [1.0, 1.0, 0.0]
     >>> round(float(legality.composite_range(image)[1].max()), 1)
-    130.9
+    130.8
     >>> bool(abs(transmission.transmit(image)[3, 240] - image[3, 240]).max() < 1e-6)
     True
 """

@@ -6,7 +6,7 @@ have much I and Q and little Y: colours that the signal carries worst. Where the
 
 Example:
     >>> [name for name, rgb, yiq, is_hot in corners() if is_hot]
-    ['red', 'yellow', 'cyan', 'blue']
+    ['yellow', 'cyan', 'red', 'blue']
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 from illuminant.color.axes import rgb_to_yiq
+from illuminant.display.patterns.color_bars import BARS
 from illuminant.display.video.legality import Limits, hot
 
 if TYPE_CHECKING:
@@ -25,16 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = ["CORNERS", "Corner", "Edge", "corners", "edges", "hot_share", "surface"]
 
-CORNERS = {
-    "black": (0.0, 0.0, 0.0),
-    "red": (1.0, 0.0, 0.0),
-    "yellow": (1.0, 1.0, 0.0),
-    "green": (0.0, 1.0, 0.0),
-    "cyan": (0.0, 1.0, 1.0),
-    "blue": (0.0, 0.0, 1.0),
-    "magenta": (1.0, 0.0, 1.0),
-    "white": (1.0, 1.0, 1.0),
-}
+CORNERS = {"black": (0.0, 0.0, 0.0), **BARS}
+"""RGB of the corners by name, white first after black and then by falling Y."""
 
 
 class Corner(NamedTuple):

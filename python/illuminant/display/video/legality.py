@@ -16,7 +16,7 @@ Sources: book 5.5; EIA RS-189-A (1976); SMPTE 170M (2004); Martindale and Paeth 
 Example:
     >>> yellow = [[[1.0, 1.0, 0.0]]]
     >>> [round(float(level[0, 0]), 1) for level in composite_range(yellow)]
-    [48.0, 130.9]
+    [48.1, 130.8]
     >>> bool(hot(yellow)[0, 0]), bool(hot(repaired(yellow))[0, 0])
     (True, False)
 """
@@ -135,7 +135,7 @@ def repaired(
 
     Example:
         >>> repaired([1.0, 1.0, 0.0]).round(3).tolist()
-        [0.97, 0.97, 0.233]
+        [0.97, 0.97, 0.232]
     """
     import numpy as np
 

@@ -5,8 +5,8 @@
 - The vectorscope shows the colour as a point: U to the right, V upwards; its angle is the hue, its distance the
   saturation. The burst points to 180°. Targets are the six colours of the 75 % bars (EIA RS-189-A), and I and Q:
 
-      yellow 167.1°  62.2     cyan 283.5°  87.7     green 240.7°  81.9      (phase; IRE peak to peak)
-      magenta 60.7°  81.9     red 103.5°  87.7      blue 347.1°  62.2
+      yellow 167.1°  62.1     cyan 283.5°  87.7     green 240.7°  81.9      (phase; IRE peak to peak)
+      magenta 60.7°  81.9     red 103.5°  87.7      blue 347.1°  62.1
 
 Distances on the vectorscope are amplitudes in IRE, half of peak to peak.
 
@@ -37,18 +37,7 @@ if TYPE_CHECKING:
 
     Float64 = NDArray[np.float64]
 
-__all__ = ["BARS", "beam", "burst_vector", "density", "hue_and_amplitude", "targets", "vectors", "waveform"]
-
-BARS = {
-    "grey": (0.75, 0.75, 0.75),
-    "yellow": (0.75, 0.75, 0.0),
-    "cyan": (0.0, 0.75, 0.75),
-    "green": (0.0, 0.75, 0.0),
-    "magenta": (0.75, 0.0, 0.75),
-    "red": (0.75, 0.0, 0.0),
-    "blue": (0.0, 0.0, 0.75),
-}
-"""RGB of the 75 % bars, from left to right."""
+__all__ = ["beam", "burst_vector", "density", "hue_and_amplitude", "targets", "vectors", "waveform"]
 
 
 def _chosen(signal: Signal, line: int | None) -> slice:
@@ -181,13 +170,15 @@ def targets(part: float = 0.75, *, levels: Levels | None = None) -> dict[str, Fl
     """
     import numpy as np
 
+    from illuminant.display.patterns.color_bars import BARS
+
     if not 0.0 < part <= 1.0:
         raise UsageError(f"Bars of {part:g} of full level: expected above 0, up to 1.")
     found = Levels() if levels is None else levels
     places = {}
     for name, rgb in BARS.items():
-        if name != "grey":
-            _, v, u = rgb_to_yvu(np.array(rgb) * (part / 0.75)) * found.range
+        if name != "white":
+            _, v, u = rgb_to_yvu(np.array(rgb) * part) * found.range
             places[name] = np.array([u, v])
     places["burst"] = np.array([-found.burst, 0.0])
     return places
@@ -198,7 +189,7 @@ def hue_and_amplitude(point: Float64) -> tuple[float, float]:
 
     Example:
         >>> [round(value, 1) for value in hue_and_amplitude(targets()["yellow"])]
-        [167.1, 31.1]
+        [167.1, 31.0]
     """
     import numpy as np
 
