@@ -26,6 +26,7 @@ from illuminant.cli import (
     develop,
     diff,
     display,
+    dither,
     gamma,
     gamut,
     info,
@@ -67,6 +68,7 @@ app.add_typer(gamma.app, name="gamma", short_help="Tables, fits and studies of a
 app.command("pattern", short_help="Draw a test pattern for a display.")(pattern.pattern)
 app.add_typer(calibrate.app, name="calibrate", short_help="Adjust, measure and describe a display.")
 app.add_typer(gamut.app, name="gamut", short_help="Compare what becomes of colours out of gamut.")
+app.add_typer(dither.app, name="dither", short_help="Compare dithers; patterns and halftones.")
 app.add_typer(radiosity.app, name="radiosity", short_help="Solve for light between surfaces, relight.")
 app.add_typer(spectra.app, name="spectra", short_help="List, show, plot, convert measured spectra.")
 app.add_typer(video.app, name="video", short_help="Send pictures through NTSC, and check them.")
