@@ -554,7 +554,9 @@ def test_a_mapped_colour_is_the_same_colour_to_within_its_rounding():
     a, b = named("sRGB"), named("Rec.2020")
     mapped, clamped = remap(codes, a, b, out_bits=16)
     assert clamped == 0.0
-    np.testing.assert_allclose(b.to_xyz(mapped / 65535.0) / b.peak, a.to_xyz(codes / 255.0) / a.peak, atol=2e-4)
+    np.testing.assert_allclose(
+        b.to_xyz(mapped / 65535.0) / b.peak, a.to_xyz(codes / 255.0) / a.peak, atol=2e-4
+    )
 
 
 def test_white_goes_to_white_unless_luminance_is_kept():
