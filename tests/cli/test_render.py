@@ -349,9 +349,15 @@ def test_a_render_can_be_watched_and_stopped_from_python(scene: Path) -> None:
 def test_ctrl_c_in_python_raises_with_the_image(scene: Path) -> None:
     from illuminant.rendering import RenderInterrupted, render
 
+    # A shell that starts the tests in the background has them ignore Ctrl-C.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+
     def interrupt(now: object) -> None:
         signal.raise_signal(signal.SIGINT)
 
-    with pytest.raises(RenderInterrupted, match=r"(every pixel holds|some pixels hold)") as caught:
-        render(scene, samples=10**6, progress=interrupt)
+    try:
+        with pytest.raises(RenderInterrupted, match=r"(every pixel holds|some pixels hold)") as caught:
+            render(scene, samples=10**6, progress=interrupt)
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert isinstance(caught.value.image, Image)

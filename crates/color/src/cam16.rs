@@ -68,7 +68,8 @@ impl Cam16 {
     }
 
     fn expand(&self, response: f64) -> f64 {
-        let r = response.abs().min(399.9);
+        // The response of a cone never reaches 400; a NaN passes.
+        let r = if response.abs() > 399.9 { 399.9 } else { response.abs() };
         (100.0 / self.luminance_level * (27.13 * r / (400.0 - r)).powf(1.0 / 0.42)).copysign(response)
     }
 
@@ -89,7 +90,8 @@ impl Cam16 {
         let y = (r + g - 2.0 * b) / 9.0;
         let hue = y.atan2(a);
         let j = 100.0 * (achromatic / self.white).powf(C * self.z);
-        let t = self.chroma_scale(hue) * a.hypot(y) / (r + g + 1.05 * b + 0.305);
+        // No real colour comes near zero here; an imaginary one is as colourful as its hue can be.
+        let t = self.chroma_scale(hue) * a.hypot(y) / (r + g + 1.05 * b + 0.305).max(0.05);
         let chroma = t.powf(0.9) * (j / 100.0).sqrt() * (1.64 - 0.29f64.powf(N)).powf(0.73);
         let m = (0.0228 * chroma * self.luminance_level.powf(0.25)).ln_1p() / 0.0228;
         [1.7 * j / (1.0 + 0.007 * j), m * hue.cos(), m * hue.sin()]
@@ -135,6 +137,15 @@ mod tests {
         let found = Cam16::new([0.95047, 1.0, 1.08883]).unwrap().from_xyz([0.2, 0.1, 0.05]);
         for (a, b) in found.into_iter().zip([42.977_075_425_1, 41.864_698_946_4, 9.110_682_151_95]) {
             assert!((a - b).abs() < 1e-8, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn colours_that_cannot_be_have_numbers_too() {
+        let cam = Cam16::new([0.95047, 1.0, 1.08883]).unwrap();
+        for xyz in [[0.2, 0.3, -1.9], [0.05, 0.1, -2.0], [1.0, -0.1, 0.3], [-1.0, 1.0, -1.0]] {
+            let found = cam.from_xyz(xyz);
+            assert!(found.iter().chain(&cam.to_xyz(found)).all(|v| v.is_finite()), "{xyz:?}: {found:?}");
         }
     }
 

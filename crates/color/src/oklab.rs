@@ -1,7 +1,7 @@
 //! Oklab: a space of lightness and two opponent axes in which hue is nearly a straight line (Ottosson 2020).
 //!
 //! lms = M₁ XYZ, each divided by that of the white; (L, a, b) = M₂ (l^⅓, m^⅓, s^⅓). With the division, which Ottosson's
-//! form leaves out because his M₁ is made for D65, any white has L = 1 and a = b = 0; for D65 the two agree to 10⁻⁴.
+//! form leaves out because his M₁ is made for D65, any white has L = 1 and a = b = 0; for D65 the two agree to 2 × 10⁻⁴.
 //!
 //! Reference: B. Ottosson, "A perceptual color space for image processing", 2020.
 

@@ -82,7 +82,7 @@ impl Sample for f64 {
     }
 }
 
-/// A hair of rounding is no colour outside the gamut.
+/// A hair of rounding is no colour outside the gamut: of the largest channel, and beyond white.
 const SLACK: f32 = 1e-4;
 const BLOCK: usize = 128;
 
@@ -158,7 +158,7 @@ impl Development {
         {
             self.one_by_one(xyz, whole, block)
         } else {
-            let met = classified(block, count);
+            let met = self.classified(block, count);
             if met != Met::default() {
                 self.together(block);
             }
@@ -195,7 +195,11 @@ impl Development {
         let add_white = self.gamut.gamut() == Gamut::Cook;
         let divide = add_white || self.gamut.gamut() == Gamut::Scale;
         let [wr, wg, wb] = self.display.system().to_xyz_rows()[1].map(|v| v as f32);
+        let floor = self.floor();
         for ((red, green), blue) in red.iter_mut().zip(green).zip(blue) {
+            // A pixel is moved for its own sake, never for a neighbour's.
+            let moved = kind([*red, *green, *blue], floor) != Met::default();
+            let before = [*red, *green, *blue];
             // What is no number is black.
             let finite = (*red + *green + *blue).abs() < f32::INFINITY;
             let mut rgb = [*red, *green, *blue].map(|v| if finite { v } else { 0.0 });
@@ -212,7 +216,7 @@ impl Development {
                 let high = rgb[0].max(rgb[1]).max(rgb[2]).max(1.0);
                 rgb = rgb.map(|v| v / high);
             }
-            [*red, *green, *blue] = rgb;
+            [*red, *green, *blue] = std::array::from_fn(|c| if moved { rgb[c] } else { before[c] });
         }
     }
 
@@ -222,16 +226,19 @@ impl Development {
         let ootf = self.display.ootf_gamma().is_some();
         let mut met = Met::default();
         for (i, pixel) in xyz.chunks_exact(3).enumerate() {
-            let single = [block[0][i], block[1][i], block[2][i]];
-            let inside = single.iter().all(|v| (-SLACK..=1.0 + SLACK).contains(v));
-            if inside && !every && !ootf {
+            let asked = self.light([pixel[0], pixel[1], pixel[2]].map(Sample::double)).map(|v| v * whole);
+            let found = kind(asked.map(|v| v as f32), self.floor());
+            if found == Met::default() && !every && !ootf {
                 continue;
             }
-            let mut rgb = self.light([pixel[0], pixel[1], pixel[2]].map(Sample::double)).map(|v| v * whole);
-            met = met.with(kind(rgb.map(|v| v as f32)));
-            if every || !inside {
-                rgb = self.gamut.map(rgb);
-            }
+            met = met.with(found);
+            let mut rgb = if found.not_finite > 0 {
+                [0.0; 3]
+            } else if every || found != Met::default() {
+                self.gamut.map(asked)
+            } else {
+                asked
+            };
             if ootf {
                 rgb = self.display.before_ootf(rgb.map(|v| v.clamp(0.0, 1.0)));
             }
@@ -240,6 +247,25 @@ impl Development {
             }
         }
         met
+    }
+
+    /// What no light at all becomes: a colour darker than the display's black is not outside for its chromaticity.
+    fn floor(&self) -> f32 {
+        self.shift as f32
+    }
+
+    fn classified(&self, block: &Block, count: usize) -> Met {
+        let floor = self.floor();
+        let [mut negative, mut above, mut not_finite] = [0u32; 3];
+        for ((&red, &green), &blue) in
+            block[0][..count].iter().zip(&block[1][..count]).zip(&block[2][..count])
+        {
+            let met = kind([red, green, blue], floor);
+            negative += met.negative as u32;
+            above += met.above as u32;
+            not_finite += met.not_finite as u32;
+        }
+        Met { negative: negative as usize, above: above as usize, not_finite: not_finite as usize }
     }
 
     /// What the whole image is multiplied by: less than 1 only for [`Gamut::ScaleImage`].
@@ -255,24 +281,16 @@ impl Development {
     }
 }
 
-/// Where a colour lies: outside by a negative channel, too bright, or no number.
+/// Where a colour lies: outside by a negative channel, too bright, or no number. `floor` is what remains of no light
+/// at all when the black of the display is taken away.
 #[inline(always)]
-fn kind(rgb: [f32; 3]) -> Met {
+fn kind(rgb: [f32; 3], floor: f32) -> Met {
     let finite = (rgb[0] + rgb[1] + rgb[2]).abs() < f32::INFINITY;
-    let negative = finite && rgb[0].min(rgb[1]).min(rgb[2]) < -SLACK;
-    let above = finite && !negative && rgb[0].max(rgb[1]).max(rgb[2]) > 1.0 + SLACK;
+    let high = rgb[0].max(rgb[1]).max(rgb[2]);
+    let low = rgb[0].min(rgb[1]).min(rgb[2]);
+    let negative = finite && low < floor - SLACK * high.max(0.0) - 1e-7;
+    let above = finite && !negative && high > 1.0 + SLACK;
     Met { negative: negative.into(), above: above.into(), not_finite: (!finite).into() }
-}
-
-fn classified(block: &Block, count: usize) -> Met {
-    let [mut negative, mut above, mut not_finite] = [0u32; 3];
-    for ((&red, &green), &blue) in block[0][..count].iter().zip(&block[1][..count]).zip(&block[2][..count]) {
-        let met = kind([red, green, blue]);
-        negative += met.negative as u32;
-        above += met.above as u32;
-        not_finite += met.not_finite as u32;
-    }
-    Met { negative: negative as usize, above: above as usize, not_finite: not_finite as usize }
 }
 
 /// Develops an image of XYZ into code values from 0 to 1, three a pixel.
@@ -384,14 +402,19 @@ mod tests {
 
     #[test]
     fn a_block_at_once_is_what_its_pixels_are_one_by_one() {
-        let image: Vec<f64> = (0..3 * 500).map(|i| f64::from(i * 61 % 997) / 600.0).collect();
+        // Among them colours that lie outside by less than rounding, beside some that lie far outside.
+        let image: Vec<f64> = (0..3 * 500)
+            .map(|i| f64::from(i * 61 % 997) / if i / 3 % 5 == 0 { 6e6 } else { 600.0 })
+            .collect();
         for gamut in [Gamut::Clamp, Gamut::Scale, Gamut::Cook] {
             let development = development(gamut, Tone::None);
             let mut codes = vec![0.0; image.len()];
-            develop(&image, 125, &development, &mut codes);
+            develop(&image, 250, &development, &mut codes);
             for (pixel, codes) in image.chunks_exact(3).zip(codes.chunks_exact(3)) {
                 let light = development.light([pixel[0], pixel[1], pixel[2]]);
-                let wanted = development.display.encode(development.gamut.map(light));
+                let outside = kind(light.map(|v| v as f32), 0.0) != Met::default();
+                let wanted = if outside { development.gamut.map(light) } else { light };
+                let wanted = development.display.encode(wanted);
                 for (a, b) in codes.iter().zip(wanted) {
                     assert!(
                         (f64::from(*a) - b).abs() < 2e-5,
@@ -399,6 +422,30 @@ mod tests {
                     );
                 }
             }
+        }
+    }
+
+    #[test]
+    fn black_is_no_colour_outside_the_gamut() {
+        let response = Response::Transfer(Transfer::Srgb);
+        let system = RgbSystem::named("sRGB").unwrap();
+        let display =
+            Display::new(system, [response.clone(), response.clone(), response], 118.0, 0.21).unwrap();
+        let dim = display.system().to_xyz([0.001, 0.0, 0.0005]);
+        let development = Development::new(display, 1.0, 118.0, Tone::None, Gamut::Cook);
+        let image: Vec<f64> = [0.0; 3].into_iter().chain(dim).collect();
+        let mut codes = [1.0; 6];
+        assert_eq!(develop(&image, 2, &development, &mut codes), Met::default());
+        assert_eq!(codes, [0.0; 6]);
+    }
+
+    #[test]
+    fn infinity_is_black_by_every_method() {
+        let image = [1.0, 1.0, f64::INFINITY, f64::NEG_INFINITY, 1.0, 1.0];
+        for name in Gamut::names() {
+            let mut codes = [1.0; 6];
+            let met = develop(&image, 2, &development(Gamut::named(name).unwrap(), Tone::None), &mut codes);
+            assert_eq!((met.not_finite, codes), (2, [0.0; 6]), "{name}");
         }
     }
 

@@ -3,7 +3,7 @@
 //! XYZ = (peak − black) M R(v) + black W: R is the response of each channel, M the matrix of primaries and white (book
 //! eq 3.2), W the XYZ of the white with Y = 1, and black the light that leaves the screen at code 0. For hybrid
 //! log-gamma the three channels meet in the OOTF of BT.2100, light_c = Y^(γ−1) E_c with Y the luminance of the scene's
-//! light E and γ = 1.2 + 0.42 log₁₀(peak / 1000).
+//! light E and γ = 1.2 + 0.42 log₁₀(peak / 1000) from 400 to 2000 cd/m²; outside, γ = 1.2 × 1.111^log₂(peak / 1000) (BT.2390).
 
 use crate::Response;
 use crate::response::{LARGEST, between};
@@ -34,8 +34,16 @@ pub enum DisplayError {
         black: f64,
     },
     /// A response that is none.
-    #[error("the response of the {0} channel does not rise from black to white")]
+    #[error(
+        "the response of the {0} channel does not rise from 0 at black to 1 at white, within what it can hold"
+    )]
     Response(&'static str),
+    /// Hybrid log-gamma in one channel and another response in the next.
+    #[error("hybrid log-gamma is the response of all three channels, or of none")]
+    Mixed,
+    /// A black level beside code values that are absolute.
+    #[error("PQ and HLG state light from zero: their display has a black of 0 here, not of {0} cd/m²")]
+    Black(f64),
 }
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
@@ -44,7 +52,8 @@ impl Display {
     /// A display from its primaries and white, the response of each channel, and the luminances of white and black.
     ///
     /// # Errors
-    /// [`DisplayError`]: white is not above black, or a response does not rise.
+    /// [`DisplayError`]: white is not above black, a response does not rise, hybrid log-gamma is mixed with others, or a
+    /// display of PQ or HLG has a black level.
     pub fn new(
         system: RgbSystem,
         responses: [Response; 3],
@@ -56,6 +65,15 @@ impl Display {
         }
         if let Some(channel) = responses.iter().position(|response| !response.is_sound()) {
             return Err(DisplayError::Response(CHANNELS[channel]));
+        }
+        let hybrid = responses.iter().filter(|response| **response == Response::Hlg).count();
+        if hybrid != 0 && hybrid != 3 {
+            return Err(DisplayError::Mixed);
+        }
+        let absolute =
+            hybrid == 3 || responses.iter().any(|response| matches!(response, Response::Pq { .. }));
+        if absolute && black > 0.0 {
+            return Err(DisplayError::Black(black));
         }
         let luminance = system.to_xyz_rows()[1];
         Ok(Self { system, responses, peak, black, luminance })
@@ -94,10 +112,14 @@ impl Display {
     /// The exponent of the OOTF, when the channels are hybrid log-gamma.
     #[must_use]
     pub fn ootf_gamma(&self) -> Option<f64> {
-        (self.responses[0] == Response::Hlg).then(|| 1.2 + 0.42 * (self.peak / 1000.0).log10())
+        let extended = |peak: f64| 1.2 * 1.111f64.powf((peak / 1000.0).log2());
+        let of_bt2100 = |peak: f64| 1.2 + 0.42 * (peak / 1000.0).log10();
+        let within = (400.0..=2000.0).contains(&self.peak);
+        (self.responses[0] == Response::Hlg)
+            .then(|| if within { of_bt2100(self.peak) } else { extended(self.peak) })
     }
 
-    /// The light of each channel, 0 to 1, of three code values.
+    /// The light of each channel, 0 to 1, of three code values; that of PQ passes 1 where a code asks for more than the peak.
     #[must_use]
     pub fn decode(&self, code: Triple) -> Triple {
         let light: Triple = std::array::from_fn(|c| self.responses[c].decode(code[c]));
@@ -188,6 +210,26 @@ mod tests {
         // BT.2408: HLG code 0.75 is 203 cd/m² on a display of 1,000.
         let hlg = display("Rec.2020", Response::Hlg, 1000.0, 0.0);
         assert!((hlg.to_xyz([0.75; 3])[1] - 203.0).abs() < 1.0);
+    }
+
+    #[test]
+    fn responses_that_share_their_channels_are_not_mixed_and_have_no_black() {
+        let system = || RgbSystem::named("Rec.2020").unwrap();
+        let other = Response::Transfer(Transfer::Srgb);
+        let mixed = [Response::Hlg, other.clone(), other];
+        assert_eq!(Display::new(system(), mixed, 1000.0, 0.0), Err(DisplayError::Mixed));
+        let pq = || Response::Pq { peak: 1000.0 };
+        assert_eq!(Display::new(system(), [pq(), pq(), pq()], 1000.0, 0.5), Err(DisplayError::Black(0.5)));
+    }
+
+    #[test]
+    fn hybrid_log_gamma_rises_at_any_peak() {
+        for peak in [1.0, 50.0, 399.0, 401.0, 4000.0] {
+            let hlg = display("Rec.2020", Response::Hlg, peak, 0.0);
+            let y: Vec<f64> = (0..=20).map(|i| hlg.to_xyz([f64::from(i) / 20.0; 3])[1]).collect();
+            assert!(y.windows(2).all(|pair| pair[0] < pair[1]), "{peak}: {y:?}");
+            assert!((y[20] - peak).abs() < 1e-3 * peak);
+        }
     }
 
     #[test]

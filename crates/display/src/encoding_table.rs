@@ -1,8 +1,8 @@
 //! Code values of light by a table, for whole images.
 //!
 //! The table has 512 places in each octave from 2⁻⁴⁰ to 1, found by the bits of a 32-bit float, and is linear between
-//! them; below, it is linear down to 0. For the power laws of displays its largest error is 10⁻⁶ (a fifteenth of a 16-bit step), which the tests
-//! hold it to.
+//! them; below, it is linear down to 0. For the responses of displays its largest error above 2⁻⁴⁰ is 10⁻⁶ (a
+//! fifteenth of a 16-bit step), which the tests hold it to.
 
 use crate::Response;
 

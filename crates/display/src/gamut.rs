@@ -183,6 +183,21 @@ mod tests {
     }
 
     #[test]
+    fn no_method_of_constant_lightness_makes_a_light_colour_black() {
+        for map in maps() {
+            if matches!(map.gamut(), Gamut::Oklab | Gamut::Cam16) {
+                for blue in 0..30 {
+                    let found = map.map([0.5, 0.5, -0.1 * f64::from(blue)]);
+                    assert!(
+                        found[0] > 0.1 && found[1] > 0.1,
+                        "{map:?}: blue of −{blue}/10 becomes {found:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
     fn neutral_colours_stay_neutral() {
         for map in maps() {
             for level in [-0.5, 0.0, 0.3, 1.0, 2.0] {

@@ -6,7 +6,7 @@
 //! | --- | --- | --- |
 //! | `sRGB`, `Rec.709`, `gamma γ`, `linear` | the inverse of that transfer function | `illuminant_color::Transfer` |
 //! | `BT.1886` | a (max(v + b, 0))^2.4, with a and b from the luminances of white and black | ITU-R BT.1886 |
-//! | `PQ` | EOTF(v) × 10,000 / peak | SMPTE ST 2084, ITU-R BT.2100 |
+//! | `PQ` | EOTF(v) × 10,000 / peak, above 1 for codes that the display cannot show | SMPTE ST 2084, ITU-R BT.2100 |
 //! | `HLG` | the scene's light E(v); the display's OOTF follows (see [`crate::Display`]) | ITU-R BT.2100 |
 //! | gain, offset and γ | (max(g v + o, 0)^γ − max(o, 0)^γ) / (max(g + o, 0)^γ − max(o, 0)^γ) | Berns 1996 |
 //! | table | linear between measured values | |
@@ -144,6 +144,7 @@ impl Response {
             }
             Self::Hlg if light <= 1.0 / 12.0 => (3.0 * light).sqrt(),
             Self::Hlg => HLG_A * (12.0 * light - HLG_B).ln() + hlg_c(),
+            Self::GainOffsetGamma { .. } if light == 0.0 => 0.0,
             Self::GainOffsetGamma { gain, offset, gamma } => {
                 let power = |code: f64| (gain * code + offset).max(0.0).powf(*gamma);
                 let wanted = light * (power(1.0) - power(0.0)) + power(0.0);
@@ -169,7 +170,9 @@ impl Response {
             Self::Pq { peak } => *peak > 0.0 && *peak <= PQ_PEAK,
             Self::GainOffsetGamma { gain, offset, gamma } => {
                 let finite = [gain, offset, gamma].iter().all(|v| v.is_finite());
-                finite && *gain > 0.0 && gain + offset > 0.0 && *offset < 1e3 && *gamma > 0.0
+                let light = |code: f64| (gain * code + offset).max(0.0).powf(*gamma);
+                let rises = light(1.0) > light(0.0) && light(1.0).is_finite();
+                finite && *gain > 0.0 && *gamma > 0.0 && rises
             }
             Self::Table(values) => {
                 values.len() >= 2
@@ -196,13 +199,17 @@ mod tests {
             Response::Pq { peak: 10_000.0 },
             Response::Hlg,
             Response::GainOffsetGamma { gain: 0.95, offset: 0.03, gamma: 2.4 },
+            Response::GainOffsetGamma { gain: 1.1, offset: -0.1, gamma: 2.2 },
             Response::Table(table),
         ];
         for response in all {
             assert!(response.is_sound());
             for i in 0..=100 {
                 let code = f64::from(i) / 100.0;
-                let back = response.encode(response.decode(code));
+                // Below its offset a gun sends nothing, for which the smallest code stands.
+                let light = response.decode(code);
+                let code = if light == 0.0 { 0.0 } else { code };
+                let back = response.encode(light);
                 // A PQ code of 0 stands for codes up to 7 × 10⁻⁷.
                 assert!((back - code).abs() < 1e-6, "{response:?}: {code} becomes {back}");
             }

@@ -548,7 +548,7 @@ fn wrong_arguments_are_errors() {
     assert_eq!(found, Err(DitherError::Buffer { found: 3, expected: 4 }));
     let found = quantise_into(&[0.0; 3], 1, 1, 9, &dither, &mut codes);
     assert_eq!(found, Err(DitherError::Bits { bits: 9, most: 8 }));
-    for name in ["", "bayer-3", "bayer-128", "bayer-08", "Floyd"] {
+    for name in ["", "bayer-3", "bayer-128", "bayer-08", "Floyd!"] {
         let error = Dither::named(name).unwrap_err();
         assert_eq!(error, DitherError::Unknown(name.to_owned()));
         assert!(error.to_string().contains("blue-noise"));

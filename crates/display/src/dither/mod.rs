@@ -131,7 +131,8 @@ impl Dither {
     pub fn named(name: &str) -> Result<Self, DitherError> {
         let diffusion = |weights, serpentine| Self::ErrorDiffusion { weights, serpentine };
         let tile = |tile: Thresholds| Self::Tile(Cow::Owned(tile));
-        Ok(match name {
+        let lower = name.to_ascii_lowercase();
+        Ok(match lower.as_str() {
             "none" => tile(Thresholds::rounding()),
             "random" => Self::Random { seed: 0 },
             "ordered-2" => tile(Thresholds::limb()),
@@ -143,7 +144,7 @@ impl Dither {
             "dot-diffusion" => Self::DotDiffusion(Cow::Owned(ClassMatrix::knuth())),
             "dot-diffusion-4" => Self::DotDiffusion(Cow::Owned(ClassMatrix::four())),
             _ => {
-                let size = name.strip_prefix("bayer-").filter(|_| Self::names().contains(&name));
+                let size = lower.strip_prefix("bayer-").filter(|_| Self::names().contains(&lower.as_str()));
                 match size.and_then(|size| size.parse().ok()) {
                     Some(size) => tile(Thresholds::bayer(size)?),
                     None => return Err(DitherError::Unknown(name.to_owned())),

@@ -33,6 +33,9 @@ pub struct Patterning {
     turns: Vec<usize>,
 }
 
+/// Codes of the largest image that is made.
+const MOST_CODES: usize = 1 << 31;
+
 impl Patterning {
     /// A cell of `width` × `height` pixels.
     ///
@@ -81,7 +84,7 @@ impl Patterning {
     /// many rows.
     ///
     /// # Errors
-    /// The number of bits is not in 1 … 16, or the values make no whole rows, or the image would be too large.
+    /// The number of bits is not in 1 … 16, or the values make no whole rows, or the image would have more than 2³¹ codes.
     pub fn enlarge(
         &self,
         values: &[f32],
@@ -91,7 +94,8 @@ impl Patterning {
     ) -> Result<Pixels, DitherError> {
         check(values.len(), width, channels, bits, 16)?;
         let shape = || DitherError::Shape { values: values.len(), width, channels };
-        let count = values.len().checked_mul(self.turns.len()).ok_or_else(shape)?;
+        let count =
+            values.len().checked_mul(self.turns.len()).filter(|&n| n <= MOST_CODES).ok_or_else(shape)?;
         Ok(if bits <= 8 {
             let mut codes = vec![0u8; count];
             self.enlarge_into(values, width * channels, channels, bits, &mut codes);

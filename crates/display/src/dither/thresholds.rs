@@ -77,7 +77,7 @@ impl Thresholds {
             )));
         }
         let rank = |x: usize, y: usize| {
-            // From the coarsest bit of the coordinates, which counts least, to the finest.
+            // From the finest bit of the coordinates, which counts most, to the coarsest.
             let mut rank = 0;
             for bit in 0..size.trailing_zeros() {
                 let (x, y) = (x >> bit & 1, y >> bit & 1);

@@ -21,7 +21,7 @@ fn bend(x: f64, threshold: f64) -> f64 {
         return x;
     }
     let u = (x - threshold) / (1.0 - threshold);
-    threshold + (1.0 - threshold) * u / (1.0 + u)
+    threshold + (1.0 - threshold) * (1.0 - 1.0 / (1.0 + u))
 }
 
 /// The colour, compressed; one whose largest channel is not above 0 is black.
