@@ -15,8 +15,8 @@ Example:
     >>> text = np.zeros((2, 640, 3))
     >>> text[:, 300:304] = [0.6, 0.0, 0.6]
     >>> found = hazards(text)
-    >>> found["chroma"].any(), found["q axis"].any(), found["hot"].any()
-    (np.True_, np.True_, np.False_)
+    >>> [bool(found[name].any()) for name in ("chroma", "q axis", "hot")]
+    [True, True, False]
 """
 
 from __future__ import annotations
