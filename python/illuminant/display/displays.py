@@ -327,14 +327,18 @@ def of_profile(profile: Profile, name: str) -> Display:
         profile: from `illuminant.display.profile.read` or `decode`.
         name: for a profile that has no description.
     """
+    peak = profile.peak or 100.0
+    # Measured curves may begin above 0: what all three channels send at code 0 is the display's black.
+    lifts = [
+        0.0 if gamma else float(table[0]) for table, gamma in zip(profile.table, profile.gammas, strict=True)
+    ]
     responses = tuple(
-        tuple(float(v) for v in table) if gamma is None else f"gamma {gamma:.6g}"
-        for table, gamma in zip(profile.table, profile.gammas, strict=True)
+        f"gamma {gamma:.6g}" if gamma else tuple(float((v - lift) / (1.0 - lift)) for v in table)
+        for table, gamma, lift in zip(profile.table, profile.gammas, lifts, strict=True)
     )
     response: Any = responses[0] if len(set(responses)) == 1 else responses
-    return Display(
-        profile.description or name, profile.primaries, profile.white, response, profile.peak or 100.0
-    )
+    black = peak * min(lifts)
+    return Display(profile.description or name, profile.primaries, profile.white, response, peak, black)
 
 
 def described(found: dict[str, Any], source: str) -> Display:

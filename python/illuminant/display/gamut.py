@@ -83,7 +83,7 @@ def classify(linear: ArrayLike, slack: float = 1e-4) -> Array:
 
     Args:
         linear: (..., 3).
-        slack: a hair of rounding that is no colour outside.
+        slack: a hair of rounding that is no colour outside, of the largest channel.
 
     Returns:
         (...,) uint8.
@@ -95,6 +95,7 @@ def classify(linear: ArrayLike, slack: float = 1e-4) -> Array:
     import numpy as np
 
     colours = np.asarray(linear, np.float64)
-    kind = np.where((colours > 1.0 + slack).any(axis=-1), 2, 0)
-    kind = np.where((colours < -slack).any(axis=-1), 1, kind)
+    largest = np.maximum(colours.max(axis=-1, initial=0.0), 0.0)
+    kind = np.where(largest > 1.0 + slack, 2, 0)
+    kind = np.where(colours.min(axis=-1) < -slack * largest - 1e-7, 1, kind)
     return np.where(np.isfinite(colours).all(axis=-1), kind, 3).astype(np.uint8)

@@ -82,6 +82,8 @@ class Look:
         ):
             if name.casefold() not in known:
                 raise UsageError(f"There is no {what} {name!r}: known are {', '.join(known)}.")
+        if not 0 <= self.seed < 1 << 64:
+            raise UsageError(f"The seed of a dither is from 0 to 2^64 - 1, not {self.seed}.")
         from illuminant.display import dither
 
         dither.check(self.dither)
