@@ -232,7 +232,7 @@ def _stated(text: dict[str, str], found: dict[bytes, bytes]) -> Display | None:
             return displays.of_profile(
                 profile.decode(_inflated(rest[1:]), "its ICC profile"), "its ICC profile"
             )
-        except DataError:
+        except (DataError, UsageError):
             pass
     if b"sRGB" in found:
         return displays.named("sRGB")
