@@ -240,7 +240,12 @@ impl Development {
                 asked
             };
             if ootf {
-                rgb = self.display.before_ootf(rgb.map(|v| v.clamp(0.0, 1.0)));
+                // The display is bounded by its own white, the signal by the light of the scene: what asks for more of that
+                // is too bright, and is scaled at its chromaticity.
+                let scene = self.display.before_ootf(rgb.map(|v| v.clamp(0.0, 1.0)));
+                let high = scene.into_iter().fold(1.0, f64::max);
+                met.above += usize::from(high > 1.0 + f64::from(SLACK) && found == Met::default());
+                rgb = scene.map(|v| v / high);
             }
             for (channel, v) in block.iter_mut().zip(rgb) {
                 channel[i] = v as f32;
@@ -437,6 +442,27 @@ mod tests {
         let mut codes = [1.0; 6];
         assert_eq!(develop(&image, 2, &development, &mut codes), Met::default());
         assert_eq!(codes, [0.0; 6]);
+    }
+
+    #[test]
+    fn hybrid_log_gamma_keeps_the_chromaticity_of_what_its_signal_cannot_hold() {
+        let hlg = || Response::Hlg;
+        let system = RgbSystem::named("Rec.2020").unwrap();
+        let display = Display::new(system, [hlg(), hlg(), hlg()], 1000.0, 0.0).unwrap();
+        let asked = [[0.0, 0.0, 1.0], [1.0, 0.5, 0.0], [0.4, 0.4, 0.4]];
+        let image: Vec<f64> = asked.iter().flat_map(|&rgb| display.system().to_xyz(rgb)).collect();
+        let development = Development::new(display.clone(), 1.0, 1000.0, Tone::None, Gamut::Cook);
+        let mut codes = [0.0; 9];
+        let met = develop(&image, 3, &development, &mut codes);
+        assert_eq!(met, Met { above: 2, ..Met::default() });
+        for (asked, codes) in asked.iter().zip(codes.chunks_exact(3)) {
+            let shown = display.decode([0, 1, 2].map(|c| f64::from(codes[c])));
+            let part = shown.into_iter().fold(0.0, f64::max) / asked.iter().copied().fold(0.0, f64::max);
+            assert!(part < 1.0 + 1e-4 && part > 0.5);
+            for (shown, asked) in shown.iter().zip(asked) {
+                assert!((shown - part * asked).abs() < 2e-4, "{asked} is shown as {shown}");
+            }
+        }
     }
 
     #[test]

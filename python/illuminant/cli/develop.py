@@ -108,7 +108,6 @@ def develop(
     """
     from illuminant.cli.report import emit_json
     from illuminant.display import developing
-    from illuminant.display.gamut import DEFAULT
     from illuminant.display.look import Look
     from illuminant.errors import UsageError
     from illuminant.image import Image, check_output
@@ -116,7 +115,7 @@ def develop(
     check_output(output)
     if regular is not None and output.suffix.lower() != ".exr":
         raise UsageError(f"--regular {regular:g}: a PNG holds no spectra; name an .exr to be written.")
-    look = Look(display or "sRGB", exposure, transfer, tone, gamut or DEFAULT, dither, bits)
+    look = Look(display or "sRGB", exposure, transfer, tone, gamut, dither, bits)
     source = Image.open(image)
     names = developing.lamps_of(source)
     lamps = dict(_pair("--lamp", word, names) for word in lamp or [])

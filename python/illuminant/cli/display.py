@@ -15,6 +15,7 @@ from illuminant.cli.options import (
     Exposure,
     GamutName,
     Json,
+    Pipeline,
     ToneName,
     Transfer,
 )
@@ -48,15 +49,7 @@ def display(
     seed: Annotated[
         int, typer.Option("--seed", metavar="N", help="Of the random dither (0).", show_default=False)
     ] = 0,
-    pipeline: Annotated[
-        str,
-        typer.Option(
-            "--pipeline",
-            metavar="NAME",
-            help="ideal, or traditional: linear light stored, gamma by a lookup table of 8 bits (figure 5.1).",
-            show_default=False,
-        ),
-    ] = "ideal",
+    pipeline: Pipeline = "ideal",
     ocio: Annotated[
         str | None,
         typer.Option(
@@ -90,7 +83,6 @@ def display(
 
     from illuminant.cli.report import emit_json, note
     from illuminant.display.dither import quantise
-    from illuminant.display.gamut import DEFAULT
     from illuminant.display.look import Look
     from illuminant.display.ocio import Config
     from illuminant.display.picture import check_name
@@ -115,7 +107,7 @@ def display(
         name = name or (found.name if found else None)
     elif ocio_display or view:
         raise UsageError("--ocio-display and --view go with --ocio.")
-    look = Look(name or "sRGB", exposure, transfer, tone, gamut or DEFAULT, dither, bits, seed, pipeline)
+    look = Look(name or "sRGB", exposure, transfer, tone, gamut, dither, bits, seed, pipeline)
     opened = Image.open(image, assume)
     chosen = False
     if absolute:
@@ -158,7 +150,7 @@ def display(
     if shown.outside >= 0.0005:
         note(
             f"{100 * shown.negative:.1f} % of the pixels have a chromaticity outside the gamut, "
-            f"{100 * shown.above:.1f} % are too bright: moved by {look.gamut}."
+            f"{100 * shown.above:.1f} % are too bright: moved by {look.method}."
         )
     if shown.not_finite:
         note(f"{shown.not_finite:,} pixels are no numbers, and black.")

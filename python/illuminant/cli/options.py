@@ -21,6 +21,7 @@ __all__ = [
     "Json",
     "LightSamples",
     "Patches",
+    "Pipeline",
     "SceneFile",
     "Solver",
     "ToneName",
@@ -93,6 +94,16 @@ DitherName = Annotated[
 Bits = Annotated[
     int,
     typer.Option("--bits", metavar="N", help="Bits of a channel of a PNG, 1 to 16 (8).", show_default=False),
+]
+
+Pipeline = Annotated[
+    str,
+    typer.Option(
+        "--pipeline",
+        metavar="NAME",
+        help="ideal, or traditional: linear light stored, gamma by a lookup table of 8 bits (figure 5.1).",
+        show_default=False,
+    ),
 ]
 
 Assume = Annotated[

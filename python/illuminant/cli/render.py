@@ -21,6 +21,7 @@ from illuminant.cli.options import (
     Json,
     LightSamples,
     Patches,
+    Pipeline,
     SceneFile,
     Solver,
     ToneName,
@@ -292,6 +293,7 @@ def render(
     gamut: GamutName = None,
     dither: DitherName = "none",
     bits: Bits = 8,
+    pipeline: Pipeline = "ideal",
     pixel: Annotated[
         str | None,
         typer.Option(
@@ -327,7 +329,7 @@ def render(
     if pixel is None:
         for path in paths:
             check_output(path)
-    look = _look(exposure, display, transfer, tone, gamut, dither, bits, seed or 0)
+    look = _look(exposure, display, transfer, tone, gamut, dither, bits, seed or 0, pipeline)
     if rgb is not None:
         from illuminant import rgb_system
 
@@ -451,12 +453,12 @@ def _look(
     dither: str,
     bits: int,
     seed: int,
+    pipeline: str,
 ) -> Look:
     """The look that the options ask for; what cannot be is refused before the work."""
-    from illuminant.display.gamut import DEFAULT
     from illuminant.display.look import Look
 
-    return Look(display or "sRGB", exposure, transfer, tone, gamut or DEFAULT, dither, bits, seed)
+    return Look(display or "sRGB", exposure, transfer, tone, gamut, dither, bits, seed, pipeline)
 
 
 class _Stop:

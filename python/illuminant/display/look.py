@@ -3,7 +3,7 @@
 The order is that of the ideal pipeline of figure 5.1, each step once, on unrounded numbers: exposure, colour correction
 to the primaries and white of the display, tone operator, gamut, transfer function, dither, quantisation. The common
 practice of the book's time, to which `pipeline="traditional"` reverts for comparison, stores linear light in 8 bits,
-clamped, and corrects for gamma with a lookup table of 8 bits at display.
+clamped unless another method is named, and corrects for gamma with a lookup table of 8 bits at display.
 
 Example:
     >>> import numpy as np
@@ -50,7 +50,8 @@ class Look:
         exposure: factor from the image's unit to 1 for the display's (diffuse) white; None lets the image choose.
         transfer: response of the display in place of its own, such as `gamma 2.4`.
         tone: a tone operator of `tones()`.
-        gamut: a method of `illuminant.display.gamut.methods()`.
+        gamut: a method of `illuminant.display.gamut.methods()`; default that of the study, or `clamp`, as was the practice,
+            in the traditional pipeline.
         dither: a dither of `illuminant.display.dither.names()`.
         bits: of a channel, 1 to 16.
         seed: of a random dither.
@@ -64,23 +65,29 @@ class Look:
     exposure: float | None = None
     transfer: str | None = None
     tone: str = "none"
-    gamut: str = gamut.DEFAULT
+    gamut: str | None = None
     dither: str = "none"
     bits: int = 8
     seed: int = 0
     pipeline: str = "ideal"
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be, before any work."""
+        """Refuse what cannot be, before any work; names are kept in lower case."""
+        if self.gamut is None:
+            object.__setattr__(
+                self, "gamut", gamut.DEFAULT if self.pipeline.casefold() == "ideal" else "clamp"
+            )
+        for key in ("tone", "gamut", "dither", "pipeline"):
+            object.__setattr__(self, key, getattr(self, key).casefold())
         check_bits(self.bits)
         if self.exposure is not None and not (self.exposure > 0 and math.isfinite(self.exposure)):
             raise UsageError(f"An exposure is a positive number, not {self.exposure:g}.")
         for what, name, known in (
             ("tone operator", self.tone, tones()),
-            ("gamut method", self.gamut, gamut.methods()),
+            ("gamut method", self.method, gamut.methods()),
             ("pipeline", self.pipeline, list(PIPELINES)),
         ):
-            if name.casefold() not in known:
+            if name not in known:
                 raise UsageError(f"There is no {what} {name!r}: known are {', '.join(known)}.")
         if not 0 <= self.seed < 1 << 64:
             raise UsageError(f"The seed of a dither is from 0 to 2^64 - 1, not {self.seed}.")
@@ -93,18 +100,28 @@ class Look:
     def target(self) -> displays.Display:
         """The display, with the response asked for."""
         found = displays.named(self.display)
-        return found if self.transfer is None else replace(found, response=self.transfer)
+        if self.transfer is None:
+            return found
+        return replace(found, name=f"{found.name}, {self.transfer}", response=self.transfer)
+
+    @property
+    def method(self) -> str:
+        """The gamut method."""
+        return self.gamut or gamut.DEFAULT
 
     def to_dict(self) -> dict[str, Any]:
         """What a file says of it: the choices by name."""
-        return {
-            "display": self.target.name,
+        word = self.display.name if isinstance(self.display, displays.Display) else str(self.display)
+        found: dict[str, Any] = {
+            "display": word,
             "tone": self.tone,
-            "gamut": self.gamut,
+            "gamut": self.method,
             "dither": self.dither,
             "bits": self.bits,
             "pipeline": self.pipeline,
         }
+        found |= {} if self.transfer is None else {"transfer": self.transfer}
+        return found | ({"seed": self.seed} if self.dither == "random" else {})
 
 
 @dataclass(frozen=True)
@@ -156,8 +173,8 @@ def show(xyz: ArrayLike, look: Look | None = None, text: dict[str, str] | None =
     steps: dict[str, Any] = {
         "exposure": exposure,
         "reference": display.shown_white,
-        "tone": chosen.tone.casefold(),
-        "gamut": chosen.gamut.casefold(),
+        "tone": chosen.tone,
+        "gamut": chosen.method,
     }
     image = np.ascontiguousarray(image)
     if chosen.pipeline == "traditional":
@@ -165,7 +182,7 @@ def show(xyz: ArrayLike, look: Look | None = None, text: dict[str, str] | None =
         codes = _through_table(linear, display, chosen)
     else:
         codes, met = display._core.show(
-            image, bits=chosen.bits, dither=chosen.dither.casefold(), seed=chosen.seed, **steps
+            image, bits=chosen.bits, dither=chosen.dither, seed=chosen.seed, **steps
         )
     pixels = image.shape[0] * image.shape[1]
     return Shown(
