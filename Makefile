@@ -37,6 +37,7 @@ demo: .venv/.core ## Render scenes/demo.toml to demo.png
 test: lint ## Run every check: lint, Rust tests, Python tests
 	@echo "illuminant: cargo test"
 	@$(CARGO_TEST)
+	@tools/browser.sh
 	@echo "illuminant: pytest"
 	@$(BIN)/python -m pytest
 

@@ -50,8 +50,8 @@ class Look:
         exposure: factor from the image's unit to 1 for the display's (diffuse) white; None lets the image choose.
         transfer: response of the display in place of its own, such as `gamma 2.4`.
         tone: a tone operator of `tones()`.
-        gamut: a method of `illuminant.display.gamut.methods()`; default that of the study, or `clamp`, as was the practice,
-            in the traditional pipeline.
+        gamut: a method of `illuminant.display.gamut.methods()`; default that of the study, or `clamp`, as was the
+            practice, in the traditional pipeline.
         dither: a dither of `illuminant.display.dither.names()`.
         bits: of a channel, 1 to 16.
         seed: of a random dither.
