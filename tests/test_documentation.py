@@ -176,7 +176,7 @@ def test_every_picture_is_small_shown_and_made_by_illuminant(repository):
     shown = {Path(link).name for page in pages(repository) for link in links(page) if link.endswith(".png")}
     pictures = sorted((repository / "docs" / "images").iterdir())
     assert {picture.name for picture in pictures} == shown
-    drawn = (repository / "tools" / "draw_optics.py").read_text(encoding="utf-8")
+    drawn = "".join(tool.read_text(encoding="utf-8") for tool in (repository / "tools").glob("draw_*.py"))
     plots = {picture.stem for picture in pictures if f'"{picture.name}"' in drawn}
     for picture in pictures:
         limit = LARGEST_DEMO if picture.name == "demo.png" else LARGEST_PICTURE

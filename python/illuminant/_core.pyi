@@ -261,10 +261,72 @@ def sampling_error(
     p95, max, and the numbers of the reflectances of the largest.
     """
 
-def develop(
-    xyz: NDArray[np.float64], system: str, exposure: float, bits: int
-) -> tuple[NDArray[np.uint8] | NDArray[np.uint16], float]:
-    """Code values (h, w, 3) of an XYZ image, and the fraction of pixels outside the gamut, which are clamped."""
+class Display:
+    """A display: primaries, white, the response of each channel, and the luminances of white and black in cd/m²."""
+
+    def __new__(
+        cls,
+        name: str,
+        primaries: Sequence[Sequence[float]],
+        white: Sequence[float],
+        responses: Sequence[str | Sequence[float]],
+        peak: float,
+        black: float,
+    ) -> Display: ...
+    def to_xyz_matrix(self) -> list[list[float]]:
+        """The matrix from linear RGB to XYZ with Y = 1 for white."""
+
+    def from_xyz_matrix(self) -> list[list[float]]:
+        """The matrix from XYZ to linear RGB."""
+
+    def decode(self, code: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Linear RGB of code values (..., 3), flat."""
+
+    def encode(self, light: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Code values of linear RGB (..., 3), flat."""
+
+    def to_xyz(self, code: NDArray[np.float64]) -> NDArray[np.float64]:
+        """XYZ in cd/m² of code values (..., 3), flat."""
+
+    def from_xyz(self, xyz: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Linear RGB of XYZ in cd/m² (..., 3), flat."""
+
+    def map_gamut(self, light: NDArray[np.float64], method: str) -> NDArray[np.float64]:
+        """Linear RGB (..., 3) brought into the gamut, flat."""
+
+    def apply_tone(self, light: NDArray[np.float64], operator: str) -> NDArray[np.float64]:
+        """Linear RGB (..., 3) after a tone operator, flat."""
+
+    def develop(
+        self,
+        xyz: NDArray[np.float64] | NDArray[np.float32],
+        *,
+        exposure: float,
+        reference: float,
+        tone: str,
+        gamut: str,
+    ) -> tuple[NDArray[np.float32], dict[str, int]]:
+        """Code values 0 to 1 of an image (h, w, 3), and how many pixels lay outside, by kind."""
+
+    def show(
+        self,
+        xyz: NDArray[np.float64] | NDArray[np.float32],
+        *,
+        exposure: float,
+        reference: float,
+        tone: str,
+        gamut: str,
+        bits: int,
+        dither: str,
+        seed: int,
+    ) -> tuple[NDArray[np.uint8] | NDArray[np.uint16], dict[str, int]]:
+        """Codes of an image (h, w, 3), and how many pixels lay outside, by kind."""
+
+def gamut_methods() -> list[str]:
+    """The names of the gamut methods."""
+
+def tone_operators() -> list[str]:
+    """The names of the tone operators."""
 
 def encode_png(
     pixels: NDArray[np.uint8] | NDArray[np.uint16],
@@ -273,6 +335,8 @@ def encode_png(
     gamma: float | None = None,
     cicp: Sequence[int] | None = None,
     srgb: bool = False,
+    icc: tuple[str, bytes] | None = None,
+    significant_bits: int | None = None,
     text: Sequence[tuple[str, str]] = ...,
 ) -> bytes:
     """A PNG with exactly the chunks asked for; `chromaticities` are x, y of white, red, green and blue."""
@@ -304,6 +368,38 @@ class _Profile(TypedDict):
 
 def decode_icc(content: bytes, samples: int) -> _Profile:
     """The display that an ICC profile describes, with its own white and primaries; `table` is (3, samples)."""
+
+def dithers() -> list[str]:
+    """The names of the dithers."""
+
+def dither(
+    values: NDArray[np.float32] | NDArray[np.float64],
+    bits: int,
+    name: str,
+    seed: int = 0,
+    *,
+    channels_alike: bool = False,
+) -> NDArray[np.uint8] | NDArray[np.uint16]:
+    """Codes of 1 to 16 bits (uint8 up to 8) of values 0..1 in an array (h, w, c), of the same shape.
+
+    What is no number counts as 0, what lies outside 0..1 is clamped. `seed` matters to `random` only. Tiles of
+    `bayer-N` and `blue-noise` are shifted from channel to channel unless `channels_alike`. A float32 array in one
+    piece is not copied.
+    """
+
+def dither_thresholds(name: str) -> NDArray[np.float32] | None:
+    """The tile (h, w) of thresholds of a dither that has one: code = floor(value (2^bits - 1) + threshold)."""
+
+def patterning(
+    values: NDArray[np.float32] | NDArray[np.float64], bits: int, cell: tuple[int, int], *, enlarge: bool
+) -> NDArray[np.uint8] | NDArray[np.uint16]:
+    """Codes of an array (h, w, c) in cells of width × height pixels.
+
+    Every pixel becomes a cell, or, in an image of the same size, every cell shows the mean of its pixels.
+    """
+
+def patterning_turns(cell: tuple[int, int]) -> NDArray[np.uint32]:
+    """When each pixel (h, w) of a cell of width × height is switched on, 0 first."""
 
 def audit_material(
     scene: Scene,
@@ -429,6 +525,10 @@ class Render:
         """The wavelength that stands for each spectral sample, nm."""
     def to_xyz(self, lamp: int = 0) -> NDArray[np.float64]:
         """The map from spectral samples to XYZ for light of a lamp, (3, N)."""
+    def lamp_spectra(self) -> list[tuple[str, NDArray[np.float64], NDArray[np.float64]]]:
+        """Each lamp: its name, its spectrum at each nm of the scene's range, and its light in the spectral samples."""
+    def reflectances(self) -> list[NDArray[np.float64]]:
+        """The reflectances of what stands in the scene at each nm of its range: each once, if it has a colour."""
     def replay(self, x: int, y: int, sample: int) -> dict[str, Any]:
         """The vertices of one path, pass by pass, and what it brought."""
     def ray_rate(self, first: int, last: int) -> dict[str, float]:

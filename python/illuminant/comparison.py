@@ -199,8 +199,7 @@ def save_sheet(
             if column >= len(of_row):
                 continue
             one = of_row[column]
-            pixels, _ = core().develop(one.image.xyz, "sRGB", used, 8)
-            axis.imshow(pixels, interpolation="lanczos")
+            axis.imshow(one.image.shown(exposure=used).picture.codes, interpolation="lanczos")
             axis.set_title(f"{technique} · {one.pair.illumination}", fontsize=8)
             numbers = f"{one.seconds:.2g} s   energy {100 * one.energy:.0f} %"
             caption = f"{numbers}\nΔE00 {one.delta_e:.2f}   FLIP {one.flip:.3f}"

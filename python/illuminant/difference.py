@@ -27,7 +27,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from illuminant import color, output, rgb_system
-from illuminant.core import core
 from illuminant.errors import MachineError, UsageError
 from illuminant.image import UNIT, Image, check_output
 
@@ -71,7 +70,11 @@ class Difference:
 
 
 def diff(
-    a: Image | str | os.PathLike[str], b: Image | str | os.PathLike[str], *, exposure: float | None = None
+    a: Image | str | os.PathLike[str],
+    b: Image | str | os.PathLike[str],
+    *,
+    exposure: float | None = None,
+    assume: str | None = None,
 ) -> Difference:
     """Compare two images of one size.
 
@@ -80,6 +83,7 @@ def diff(
         b: the image to be compared with it.
         exposure: factor from Y of absolute images to the display's 0 to 1; default that of the first absolute
             one.
+        assume: display of a file that does not say which its numbers are for.
 
     Returns:
         ΔE00 and FLIP, for every pixel and in all.
@@ -91,8 +95,8 @@ def diff(
     """
     import numpy as np
 
-    first = a if isinstance(a, Image) else Image.open(a)
-    second = b if isinstance(b, Image) else Image.open(b)
+    first = a if isinstance(a, Image) else Image.open(a, assume)
+    second = b if isinstance(b, Image) else Image.open(b, assume)
     if (first.width, first.height) != (second.width, second.height):
         raise UsageError(
             f"The images differ in size: {first.width}x{first.height} and {second.width}x{second.height} pixels."
@@ -161,23 +165,24 @@ def save_map(path: str | os.PathLike[str], difference: Difference) -> None:
 
     path = check_map(path)
     if path.suffix.lower() == ".exr":
-        from illuminant import exr
+        from illuminant import exr, rgb_system
 
         contents = exr.Contents(
             rgb=np.repeat(difference.delta_e[..., None], 3, axis=2),
-            chromaticities=exr.REC709,
+            chromaticities=rgb_system.chromaticities(rgb_system.named("sRGB")),
             layers={"flip": difference.flip_map[..., None]},
             attributes={"unit": "CIEDE2000", "exposure": difference.exposure},
         )
         output.write(path, lambda temporary: exr.write(temporary, contents))
         return
+    from illuminant.display.picture import Picture
+
     heat = np.asarray(_HEAT)
     level = np.clip(difference.delta_e / difference.scale, 0.0, 1.0)
     places = np.linspace(0.0, 1.0, len(heat))
     colors = np.stack([np.interp(level, places, heat[:, channel]) for channel in range(3)], axis=2)
-    text = [
-        ("Software", "illuminant"),
-        ("Description", f"CIEDE2000, 0 (black) to {difference.scale:.6g} (white)"),
-    ]
-    pixels = np.round(colors * 255).astype(np.uint8)
-    output.write_bytes(path, core().encode_png(pixels, srgb=True, text=text))
+    text = {
+        "Software": "illuminant",
+        "Description": f"CIEDE2000, 0 (black) to {difference.scale:.6g} (white)",
+    }
+    Picture.of_values(colors, "sRGB", text=text).save(path)

@@ -13,7 +13,9 @@ What a file written here holds:
   for others.
 - Lanes, when they were kept, in the layout for spectral images of Fichet, Pacanowski and Wilkie (2021), one
   channel `S0.550,000nm` a lane, with `spectralLayoutVersion` and `emissiveUnits`, and in `illuminant:toXYZ`
-  the 3 × N matrix (row by row) that takes the lanes to the image's XYZ.
+  the 3 × N matrix (row by row) that takes the lanes to the image's XYZ. Those of each lamp by itself are channels
+  `spectra:NAME.S0.550,000nm`, which readers of that layout pass over. `illuminant:basis` (JSON) says what they
+  mean: see `illuminant.kept_spectra`.
 - `illuminant:settings` (JSON) says how the image was made, `illuminant:exposure` which exposure shows it, and
   `illuminant:unit` what unit Y has. There is no date: the same render gives the same bytes.
 
@@ -37,10 +39,13 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.floating[Any]]
 
-__all__ = ["LARGEST_HALF", "REC709", "XYZ", "Contents", "fits_half", "read", "write"]
+__all__ = ["LARGEST_HALF", "XYZ", "Contents", "fits_half", "read", "write"]
 
 LARGEST_HALF = 65504.0
 """The largest finite half float."""
+
+LARGEST = 1 << 31
+"""Values (pixels times channels) of the largest file that is read."""
 
 MAGIC = b"\x76\x2f\x31\x01"
 """The first four bytes of every EXR file."""
@@ -48,10 +53,7 @@ MAGIC = b"\x76\x2f\x31\x01"
 XYZ = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1 / 3, 1 / 3)
 """`chromaticities` of CIE XYZ: x and y of red, green, blue and white."""
 
-REC709 = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)
-"""What a file without `chromaticities` has, by the standard."""
-
-_LANE = re.compile(r"S0\.(\d+),(\d+)nm")
+_LANE = re.compile(r"(?:(?P<layer>spectra:.*)\.)?S0\.(?P<nm>\d+),(?P<part>\d+)nm", re.DOTALL)
 # Layers of one value a pixel whose channel compositing programs look for.
 _SINGLE = {"depth": "Z"}
 
@@ -62,16 +64,17 @@ class Contents:
 
     Attributes:
         rgb: (h, w, 3), in the system of `chromaticities`.
-        chromaticities: x and y of red, green, blue and white.
+        chromaticities: x and y of red, green, blue and white; None when the file that was read does not say.
         layers: (h, w, c) arrays by name; those with three values are XYZ or vectors, never in an RGB system.
         wavelengths_nm: (N,) when lanes were kept.
-        to_xyz: (3, N) when lanes were kept; the lanes themselves are the layer `spectra`.
+        to_xyz: (3, N) when lanes were kept; the lanes themselves are the layer `spectra`, and those of each lamp the
+            layers `spectra:NAME`.
         attributes: `illuminant:*` attributes without that prefix, and `whiteLuminance` when there is one.
         half: whether the numbers are (to be) 16-bit floats.
     """
 
     rgb: Array
-    chromaticities: tuple[float, ...] = XYZ
+    chromaticities: tuple[float, ...] | None = XYZ
     layers: dict[str, Array] = field(default_factory=dict)
     wavelengths_nm: Array | None = None
     to_xyz: Array | None = None
@@ -89,8 +92,9 @@ def _channels(contents: Contents) -> tuple[list[str], list[Array]]:
     arrays = [contents.rgb]
     for name, layer in contents.layers.items():
         count = layer.shape[2]
-        if name == "spectra" and contents.wavelengths_nm is not None:
-            names += [_lane(float(wavelength)) for wavelength in contents.wavelengths_nm]
+        if name.partition(":")[0] == "spectra" and contents.wavelengths_nm is not None:
+            before = f"{name}." if ":" in name else ""
+            names += [before + _lane(float(wavelength)) for wavelength in contents.wavelengths_nm]
         elif count == 1:
             names.append(f"{name}.{_SINGLE[name]}" if name in _SINGLE else name)
         elif count == 3:
@@ -145,7 +149,7 @@ def write(path: str | Path, contents: Contents) -> None:
     spec.channelnames = tuple(names)
     spec.attribute("compression", "zip")
     spec.attribute("DateTime", "")  # the same render shall give the same bytes
-    spec.attribute("chromaticities", "float[8]", tuple(contents.chromaticities))
+    spec.attribute("chromaticities", "float[8]", tuple(contents.chromaticities or XYZ))
     for key, value in contents.attributes.items():
         if key == "settings":
             value = json.dumps(value)
@@ -229,6 +233,9 @@ def read(path: str | Path) -> Contents:
         raise ImageError(f"{path} cannot be read: {reason}.")
     try:
         spec = file.spec()
+        values = spec.width * spec.height * spec.nchannels
+        if not 0 < values <= LARGEST:
+            raise ImageError(f"{path} has {values:,} values: 1 to {LARGEST:,} are read.")
         pixels = file.read_image(oiio.FLOAT)
         if pixels is None:
             raise ImageError(f"{path} cannot be read: {' '.join(file.geterror().split()).rstrip('.')}.")
@@ -244,7 +251,7 @@ def read(path: str | Path) -> Contents:
     attributes = {item.name: item.value for item in spec.extra_attribs}
     contents = Contents(
         rgb=pixels[..., [index[name] for name in colour]].astype(np.float64),
-        chromaticities=XYZ if colour[0] == "X" else _floats(attributes.get("chromaticities", REC709)),
+        chromaticities=XYZ if colour[0] == "X" else _floats(attributes.get("chromaticities")),
         half=spec.format == oiio.HALF,
     )
     _read_layers(contents, pixels, [name for name in spec.channelnames if name not in (*colour, "A")], index)
@@ -252,15 +259,26 @@ def read(path: str | Path) -> Contents:
         if key == "whiteLuminance" or (key.startswith("illuminant:") and key != "illuminant:toXYZ"):
             contents.attributes[key.removeprefix("illuminant:")] = value
     if isinstance(contents.attributes.get("settings"), str):
-        contents.attributes["settings"] = json.loads(contents.attributes["settings"])
+        try:
+            contents.attributes["settings"] = json.loads(contents.attributes["settings"])
+        except ValueError:
+            raise ImageError(
+                f"{path} cannot be read: its attribute illuminant:settings is damaged."
+            ) from None
     numbers = attributes.get("illuminant:toXYZ")
     if numbers is not None:
-        contents.to_xyz = np.asarray(numbers, np.float64).reshape(3, -1)
+        matrix = np.asarray(numbers, np.float64).ravel()
+        lanes = 0 if contents.wavelengths_nm is None else len(contents.wavelengths_nm)
+        if matrix.size != 3 * lanes:
+            raise ImageError(
+                f"{path} cannot be read: illuminant:toXYZ has {matrix.size} numbers for {lanes} wavelengths."
+            )
+        contents.to_xyz = matrix.reshape(3, -1)
     return contents
 
 
-def _floats(values: Any) -> tuple[float, ...]:
-    return tuple(float(value) for value in values)
+def _floats(values: Any) -> tuple[float, ...] | None:
+    return None if values is None else tuple(float(value) for value in values)
 
 
 def _read_layers(contents: Contents, pixels: Array, names: list[str], index: dict[str, int]) -> None:
@@ -268,11 +286,13 @@ def _read_layers(contents: Contents, pixels: Array, names: list[str], index: dic
     import numpy as np
 
     lanes = {name: match for name in names if (match := _LANE.fullmatch(name))}
-    if lanes:
-        wavelengths = {name: float(f"{match[1]}.{match[2]}") for name, match in lanes.items()}
-        order = sorted(lanes, key=wavelengths.__getitem__)
-        contents.wavelengths_nm = np.array([wavelengths[name] for name in order])
-        contents.layers["spectra"] = pixels[..., [index[name] for name in order]]
+    wavelengths = {name: float(f"{match['nm']}.{match['part']}") for name, match in lanes.items()}
+    for layer in dict.fromkeys(match["layer"] for match in lanes.values()):
+        own = [name for name, match in lanes.items() if match["layer"] == layer]
+        order = sorted(own, key=wavelengths.__getitem__)
+        if layer is None:
+            contents.wavelengths_nm = np.array([wavelengths[name] for name in order])
+        contents.layers[layer or "spectra"] = pixels[..., [index[name] for name in order]]
     groups: dict[str, list[str]] = {}
     for name in names:
         if name not in lanes:

@@ -30,7 +30,7 @@ def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
     channels += sum({"depth": 2, "samples": 1, "terms": 15}.get(name, 3) for name in settings.layers)
     channels += 3 * lamps if settings.lamps else 0
     if settings.keep_spectra:
-        channels += _lanes(settings.sampling)
+        channels += _lanes(settings.sampling) * (1 + lamps * settings.lamps)
     # Paths from lamps have sums of their own.
     return pixels * ((36 + 16 * settings.caustics) * channels + 4 * (1 + settings.caustics))
 

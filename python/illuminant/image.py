@@ -1,8 +1,8 @@
 """An image: absolute colour, and everything that is known of how it was made.
 
 The colour of a pixel is XYZ (CIE 1931 2°) in absolute units: Y is the luminance in cd/m² (with K_m = 683
-lm/W). Nothing is scaled or clamped until a display is asked for: `save("a.png")` and `show()` apply an
-exposure, an RGB system and its transfer function; `save("a.exr")` writes the numbers as they are.
+lm/W). Nothing is scaled or clamped until a display is asked for: `save("a.png")` and `show()` take a
+`illuminant.display.look.Look`; `save("a.exr")` writes the numbers as they are.
 
 With no exposure given, the scene's white is mapped to 0.8 of the display's: white is the 98th percentile of Y
 over the pixels that do not emit light themselves (a lamp in the picture shall not make the rest dark).
@@ -30,6 +30,10 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from illuminant.display.displays import Display
+    from illuminant.display.look import Look, Shown
+    from illuminant.kept_spectra import KeptSpectra
+
     Array = NDArray[np.floating[Any]]
 
 __all__ = ["EXTENSIONS", "UNIT", "WHITE", "Image", "Saved", "check_output"]
@@ -56,13 +60,13 @@ class Saved(NamedTuple):
         path: the file.
         exposure: factor from Y to the display's 0 to 1; None for an EXR, which is never scaled.
         chosen: whether the exposure was chosen from the image, not given.
-        clamped: fraction of pixels outside the display's gamut or above its white; None for an EXR.
+        outside: fraction of pixels outside the display's gamut or above its white; None for an EXR.
     """
 
     path: Path
     exposure: float | None
     chosen: bool
-    clamped: float | None
+    outside: float | None
 
 
 def check_output(path: str | os.PathLike[str]) -> Path:
@@ -88,8 +92,8 @@ class Image:
     Attributes:
         xyz: (h, w, 3) float64; Y in `unit`.
         layers: further arrays (h, w, c) by name: `depth` (m), `normal`, `albedo` (XYZ, relative), `samples`,
-            `lamp:NAME` (XYZ, in `unit`), `spectra` (lanes, W/(sr m² nm)), `emission` (1 where a pixel shines
-            itself).
+            `lamp:NAME` (XYZ, in `unit`), `spectra` (lanes, W/(sr m² nm)), `spectra:NAME` (lanes of the light of
+            one lamp), `emission` (1 where a pixel shines itself).
         unit: of Y: `cd/m2`, or `relative` for an image from a file that does not say.
         settings: what is needed to make it again: scene, hash, version, technique, sampling, samples, seed,
             ...
@@ -97,6 +101,7 @@ class Image:
             nobody did.
         statistics: how the work went: seconds, rays, dropped samples; not saved.
         wavelengths_nm, to_xyz: of the lanes (N,) and (3, N), when they were kept; xyz = to_xyz @ lanes.
+        basis: what the lanes mean: sampling, lamps and reflectances; for `illuminant.display.develop`.
     """
 
     xyz: Array
@@ -107,6 +112,7 @@ class Image:
     statistics: dict[str, Any] = field(default_factory=dict)
     wavelengths_nm: Array | None = None
     to_xyz: Array | None = None
+    basis: KeptSpectra | None = None
 
     def __post_init__(self) -> None:
         """Check the shape of the colour."""
@@ -169,27 +175,27 @@ class Image:
     def save(
         self,
         path: str | os.PathLike[str],
+        look: Look | None = None,
         *,
         exposure: float | None = None,
         rgb: str | None = None,
-        bits: int = 8,
         half: bool = False,
     ) -> Saved:
         """Save as EXR (absolute, all layers) or PNG (for a display), atomically.
 
         Args:
             path: ends with `.exr` or `.png`.
-            exposure: for PNG, the factor from Y to the display's 0 to 1; default the image's own, else
-                `auto_exposure()`. An EXR is never scaled: it only notes the exposure.
-            rgb: name of an RGB system; default XYZ for EXR and sRGB for PNG.
-            bits: 8 or 16 a channel, for PNG.
+            look: for PNG, the display, tone operator, gamut method, dither and bits; default sRGB with 8 bits.
+            exposure: for PNG, the factor from Y to the display's 0 to 1; default that of the look, else the image's
+                own, else `auto_exposure()`. An EXR is never scaled: it only notes the exposure.
+            rgb: name of the RGB system of an EXR; default XYZ.
             half: 16-bit floats, for EXR; their largest is 65,504.
 
         Returns:
-            Path, exposure, whether it was chosen here, and the fraction of pixels clamped.
+            Path, exposure, whether it was chosen here, and the fraction of pixels outside the gamut.
 
         Raises:
-            UsageError: the extension, RGB system, exposure or number of bits is not possible.
+            UsageError: the extension, RGB system or exposure is not possible.
             ImageError: the path cannot be written.
             MachineError: the disk is full or fails; nothing is left behind, and an older file is as it was.
 
@@ -197,6 +203,8 @@ class Image:
             >>> image.save("room.png", exposure=0.01)     # doctest: +SKIP
         """
         path = check_output(path)
+        if exposure is None and look is not None:
+            exposure = look.exposure
         given = self.exposure if exposure is None else exposure
         if given is not None and not (given > 0 and math.isfinite(given)):
             raise UsageError(f"An exposure is a positive number, not {given}.")
@@ -204,24 +212,41 @@ class Image:
         if path.suffix.lower() == ".exr":
             self._save_exr(path, used, rgb or "XYZ", half)
             return Saved(path, None, False, None)
-        content, clamped = self._png(used, rgb or "sRGB", bits)
-        output.write_bytes(path, content)
-        return Saved(path, used, given is None, clamped)
+        shown = self.shown(look, exposure=used)
+        shown.picture.save(path)
+        return Saved(path, used, given is None, shown.outside)
 
-    def _png(self, exposure: float, rgb: str, bits: int) -> tuple[bytes, float]:
-        from illuminant import png, rgb_system
+    def shown(self, look: Look | None = None, *, exposure: float | None = None) -> Shown:
+        """The image as a picture for a display, and what was met on the way.
 
-        name = str(rgb_system.named(rgb)["name"])
+        Args:
+            look: the display, tone operator, gamut method, dither and bits; default sRGB with 8 bits.
+            exposure: as for `save`.
+
+        Raises:
+            UsageError: a choice is not possible.
+
+        Example:
+            >>> import numpy as np
+            >>> Image(np.full((1, 1, 3), 40.0)).shown(exposure=0.0125).picture.display.name
+            'sRGB'
+        """
+        from dataclasses import replace
+
+        from illuminant.display.look import Look, show
+
+        look = look or Look()
+        used = exposure or look.exposure or self.exposure or self.auto_exposure()
         text = {
             "Software": f"illuminant {_version()}",
-            "Description": f"display white is {1 / exposure:.6g} {self.unit} (exposure {exposure:.6g})",
-            "Exposure": f"{exposure:.9g}",
+            "Description": f"display white is {1 / used:.6g} {self.unit} (exposure {used:.6g})",
+            "Exposure": f"{used:.9g}",
             "Unit": self.unit,
-            "RGB system": name,
+            "Look": json.dumps(look.to_dict()),
         }
         if self.settings:
             text["Settings"] = json.dumps(self.settings)
-        return png.encode(self.xyz, name, exposure, bits, text)
+        return show(self.xyz, replace(look, exposure=used), text)
 
     def _save_exr(self, path: Path, exposure: float, rgb: str, half: bool) -> None:
         import numpy as np
@@ -236,6 +261,8 @@ class Image:
         }
         if self.unit == UNIT:
             attributes["whiteLuminance"] = 1.0
+        if self.basis is not None and "spectra" in self.layers:
+            attributes["basis"] = self.basis.to_json()
         colour = self.xyz
         chromaticities: tuple[float, ...] = exr.XYZ
         if rgb.upper() != "XYZ":
@@ -257,16 +284,20 @@ class Image:
         output.write(path, lambda temporary: exr.write(temporary, contents))
 
     @classmethod
-    def open(cls, path: str | os.PathLike[str]) -> Image:
+    def open(cls, path: str | os.PathLike[str], assume: str | Display | None = None) -> Image:
         """Open an EXR or a PNG, made here or elsewhere.
 
         An EXR written here comes back with its layers, lanes, unit, settings and exposure. One from
-        elsewhere is taken to XYZ by its `chromaticities` (Rec.709 without them), and is absolute if it has
-        `whiteLuminance`, else relative. A PNG is decoded by its RGB system (sRGB if it names none) and is
-        relative: the display's white has Y = 1.
+        elsewhere is taken to XYZ by its `chromaticities`, and is absolute if it has `whiteLuminance`, else relative. A
+        PNG is decoded by the display that it states and is relative: the display's (diffuse) white has Y = 1.
+
+        Args:
+            path: the file.
+            assume: the display (for EXR, the RGB system) whose numbers these are if the file does not say.
 
         Raises:
-            ImageError: the file is not there, damaged, or no image of these kinds.
+            ImageError: the file is not there, damaged, no image of these kinds, or does not say how its numbers are
+                meant.
 
         Example:
             >>> Image.open("room.exr").xyz.shape       # doctest: +SKIP
@@ -277,29 +308,51 @@ class Image:
             raise ImageError(f"{path} cannot be read: it is a folder.")
         if not path.is_file():
             raise ImageError(f"{path} cannot be read: there is no such file.")
-        if path.suffix.lower() == ".png":
-            from illuminant import png
+        if path.suffix.lower() in (".png", ".rle"):
+            from illuminant.display.picture import Picture
 
-            xyz, header = png.decode(path)
-            return cls(xyz, unit=RELATIVE, settings=header.settings, exposure=1.0)
+            picture = Picture.open(path, assume)
+            xyz = picture.xyz() / picture.display.shown_white
+            return cls(xyz, unit=RELATIVE, settings=picture.settings, exposure=1.0)
         if path.suffix.lower() == ".exr":
-            return cls._open_exr(path)
-        raise ImageError(f"{path} cannot be read: only .exr and .png are.")
+            return cls._open_exr(path, assume)
+        raise ImageError(f"{path} cannot be read: only .exr, .png and .rle are.")
 
     @classmethod
-    def _open_exr(cls, path: Path) -> Image:
+    def _open_exr(cls, path: Path, assume: str | Display | None) -> Image:
         import numpy as np
 
         from illuminant import exr
+        from illuminant.display import displays
 
         contents = exr.read(path)
         xyz = contents.rgb
-        if not np.allclose(contents.chromaticities, exr.XYZ, atol=1e-6):
+        if contents.chromaticities is None:
+            if assume is None:
+                raise ImageError(
+                    f"{path} does not say which primaries its numbers are for: name their RGB system (--assume sRGB, "
+                    "assume=...)."
+                )
+            xyz = xyz @ displays.named(assume).to_xyz_matrix.T
+        elif not np.allclose(contents.chromaticities, exr.XYZ, atol=1e-6):
             xyz = xyz @ _to_xyz(contents.chromaticities, path).T
         found = contents.attributes
         white = float(found.get("whiteLuminance", 0.0))
         unit = found.get("unit") or (UNIT if white > 0 else RELATIVE)
         settings = found.get("settings")
+        basis = None
+        if contents.wavelengths_nm is not None and isinstance(found.get("basis"), str):
+            from illuminant.kept_spectra import KeptSpectra
+
+            try:
+                basis = KeptSpectra.from_json(found["basis"])
+            except ImageError as error:
+                raise ImageError(f"{path} cannot be read: {error}.") from None
+            if len(basis.wavelengths_nm) != len(contents.wavelengths_nm):
+                raise ImageError(
+                    f"{path} cannot be read: it has {len(contents.wavelengths_nm)} lanes, and illuminant:basis has "
+                    f"{len(basis.wavelengths_nm)}."
+                )
         return cls(
             xyz * white if white > 0 and white != 1.0 else xyz,
             layers=contents.layers,
@@ -309,6 +362,7 @@ class Image:
             exposure=float(f"{found['exposure']:.7g}") if found.get("exposure") else None,
             wavelengths_nm=contents.wavelengths_nm,
             to_xyz=contents.to_xyz,
+            basis=basis,
         )
 
     def show(self, *, exposure: float | None = None) -> None:
@@ -317,7 +371,7 @@ class Image:
         Args:
             exposure: as for `save`.
         """
-        content, _ = self._png(exposure or self.exposure or self.auto_exposure(), "sRGB", 8)
+        content = self.shown(exposure=exposure).picture.encode()
         try:
             from IPython import get_ipython
 
@@ -340,7 +394,7 @@ class Image:
 
     def _repr_png_(self) -> bytes:
         """The image as a PNG, which notebooks show."""
-        return self._png(self.exposure or self.auto_exposure(), "sRGB", 8)[0]
+        return self.shown().picture.encode()
 
 
 def _version() -> str:

@@ -108,10 +108,11 @@ def _png_facts(path: Path) -> dict[str, Any]:
     from illuminant import png
 
     header = png.read_header(path)
+    meant = header.display.name if header.display else "which does not say for which display"
     facts: dict[str, Any] = {
         "file": str(path),
         "size": [header.width, header.height],
-        "format": f"PNG, {header.bits} bits a channel, {header.system or 'sRGB (nothing stated)'}",
+        "format": f"PNG, {header.bits} bits a channel, {meant}",
     }
     if header.text.get("Exposure"):
         exposure = float(header.text["Exposure"])
@@ -119,7 +120,8 @@ def _png_facts(path: Path) -> dict[str, Any]:
         facts["unit"] = f"1 is {1 / exposure:.6g} {unit}"
         facts["exposure"] = exposure
     facts["settings"] = header.settings
-    facts["remake"] = remake(header.settings, path, facts.get("exposure"))
+    facts["look"] = header.look
+    facts["remake"] = remake(header.settings, path, facts.get("exposure"), header.look)
     return facts
 
 
@@ -129,8 +131,13 @@ def _exr_facts(path: Path) -> dict[str, Any]:
     contents = exr.read(path)
     height, width = contents.rgb.shape[:2]
     found = contents.attributes
-    xyz = all(abs(a - b) < 1e-6 for a, b in zip(contents.chromaticities, exr.XYZ, strict=True))
-    system = "XYZ" if xyz else found.get("rgbSystem", "RGB, see chromaticities")
+    stated = contents.chromaticities
+    xyz = stated is not None and all(abs(a - b) < 1e-6 for a, b in zip(stated, exr.XYZ, strict=True))
+    system = (
+        "XYZ"
+        if xyz
+        else found.get("rgbSystem", "RGB, see chromaticities" if stated else "RGB of unknown primaries")
+    )
     settings = found.get("settings")
     settings = settings if isinstance(settings, dict) else {}
     facts: dict[str, Any] = {
@@ -148,8 +155,16 @@ def _exr_facts(path: Path) -> dict[str, Any]:
     return facts
 
 
-def remake(settings: dict[str, Any], path: Path, exposure: float | None) -> str | None:
+def remake(
+    settings: dict[str, Any], path: Path, exposure: float | None, look: dict[str, Any] | None = None
+) -> str | None:
     """The command that makes an image again; None when its header does not say enough.
+
+    Args:
+        settings: of the render.
+        path: of the image.
+        exposure: of a PNG.
+        look: how a PNG was shown; what is the default is left out.
 
     Example:
         >>> from pathlib import Path
@@ -158,7 +173,7 @@ def remake(settings: dict[str, Any], path: Path, exposure: float | None) -> str 
     """
     import shlex
 
-    if not settings.get("scene"):
+    if not settings.get("scene") or "developed" in settings:
         return None
     words = ["illuminant", "render", str(settings["scene"]), "-o", str(path)]
     samples = settings.get("samples")
@@ -167,9 +182,15 @@ def remake(settings: dict[str, Any], path: Path, exposure: float | None) -> str 
     if settings.get("size"):
         width, height = settings["size"]
         words += ["--size", f"{width}x{height}"]
-    for key in ("technique", "illumination", "sampling", "depth", "filter", "seed", "error"):
+    for key in ("technique", "illumination", "sampling", "depth", "filter", "seed", "error", "develop_for"):
         if settings.get(key) is not None:
-            words += [f"--{key}", str(settings[key])]
+            words += [f"--{key.replace('_', '-')}", str(settings[key])]
     if exposure is not None:
         words += ["--exposure", f"{exposure:g}"]
+    from illuminant.display.gamut import DEFAULT
+
+    usual = {"display": "sRGB", "tone": "none", "gamut": DEFAULT, "dither": "none", "bits": 8}
+    for key, default in usual.items():
+        if look and look.get(key, default) != default:
+            words += [f"--{key}", str(look[key])]
     return shlex.join(words)

@@ -1,14 +1,8 @@
-"""PNG files: what a display shows of an image, labelled so that any viewer shows the same.
+"""PNG files: code values, and the chunks that say which display they are for.
 
-The pixels are made by the core (`_core.develop`: exposure, RGB system, transfer function, rounding) and
-packed by it (`_core.encode_png`); this module says which colour chunks belong to which RGB system, writes the
-text chunks, and reads both back.
-
-- sRGB: an `sRGB` chunk.
-- Rec.709, Rec.2020, Display P3 and XYZ: `cICP` (code points of ITU-T H.273).
-- All: `cHRM`, and `gAMA` where the transfer function is a power law or near one; Adobe RGB and ACES AP1 have
-  only these.
-- ACES AP0 is refused: its blue primary has a negative y, which no chunk can state.
+Which chunks belong to which display is told in `illuminant.display.picture`; the core packs them
+(`_core.encode_png`), and writes exactly those asked for. A display with a primary of negative x or y (ACES AP0) is
+refused, since no chunk can state it.
 
 Reference: W3C, Portable Network Graphics (PNG) Specification, third edition, 2025.
 """
@@ -16,6 +10,7 @@ Reference: W3C, Portable Network Graphics (PNG) Specification, third edition, 20
 from __future__ import annotations
 
 import json
+import os
 import struct
 import zlib
 from collections.abc import Iterator
@@ -23,15 +18,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from illuminant import rgb_system
 from illuminant.core import core
-from illuminant.errors import ImageError, UsageError
+from illuminant.display import displays
+from illuminant.display.displays import Display
+from illuminant.errors import DataError, ImageError, UsageError
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    Array = NDArray[np.floating[Any]]
+    Codes = NDArray[np.uint8] | NDArray[np.uint16]
 
 __all__ = ["SIGNATURE", "Header", "chunks", "decode", "encode", "read_header"]
 
@@ -39,15 +35,25 @@ SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 # H.273: colour primaries, transfer characteristics, matrix (0: RGB), full range.
 _CICP = {
-    "Rec.709": (1, 1, 0, 1),
-    "Rec.2020": (9, 14, 0, 1),
     "Display P3": (12, 13, 0, 1),
+    "Rec.2020 PQ": (9, 16, 0, 1),
+    "Rec.2020 HLG": (9, 18, 0, 1),
     "XYZ": (10, 8, 0, 1),
 }
-_SYSTEM_OF_CICP = {(code[0], code[1]): name for name, code in _CICP.items()} | {
+# What other programs write: for the curves of cameras a display answers by BT.1886.
+_OTHER_CICP = {
     (1, 13): "sRGB",
+    (1, 1): "Rec.709",
+    (1, 6): "Rec.709",
+    (9, 14): "Rec.2020",
     (9, 15): "Rec.2020",
 }
+
+LARGEST = 1 << 28
+"""Pixels of the largest image that is read."""
+
+LARGEST_PROFILE = 1 << 24
+"""Bytes of the largest ICC profile that is read from a PNG."""
 
 
 @dataclass(frozen=True)
@@ -55,62 +61,88 @@ class Header:
     """What a PNG file says of itself.
 
     Attributes:
-        width, height, bits: of the image.
-        system: name of the RGB system, or None when the chunks state none that is known.
+        width, height: in pixels.
+        bits: of a channel that carry the image.
+        display: whose code values these are, or None when the file does not say.
         text: the text chunks by keyword; `Settings`, when there is one, is JSON.
     """
 
     width: int
     height: int
     bits: int
-    system: str | None
+    display: Display | None
     text: dict[str, str]
 
     @property
     def settings(self) -> dict[str, Any]:
         """How the image was made, if the file says so."""
+        return self._object("Settings")
+
+    @property
+    def look(self) -> dict[str, Any]:
+        """How the image was shown, if the file says so."""
+        return self._object("Look")
+
+    def _object(self, keyword: str) -> dict[str, Any]:
         try:
-            found = json.loads(self.text.get("Settings", "{}"))
-        except ValueError:
+            found = json.loads(self.text.get(keyword, "{}"))
+        except (ValueError, RecursionError):
             return {}
         return found if isinstance(found, dict) else {}
 
 
-def encode(xyz: Array, system: str, exposure: float, bits: int, text: dict[str, str]) -> tuple[bytes, float]:
+def encode(codes: Codes, bits: int, display: Display, text: dict[str, str]) -> bytes:
     """Make a PNG file in memory.
 
     Args:
-        xyz: (h, w, 3), absolute, Y in cd/m².
-        system: name of an RGB system (`_core.rgb_systems()`).
-        exposure: factor on Y that makes 1 the display's white.
-        bits: 8 or 16.
+        codes: (h, w, 3), uint8 or uint16, from 0 to 2^bits − 1.
+        bits: 1 to 16 a channel; other than 8 and 16 are spread over these, and stated by `sBIT`.
+        display: whose code values they are.
         text: keyword and value of each text chunk.
 
-    Returns:
-        The bytes, and the fraction of pixels that lay outside the gamut or above white and were clamped.
-
     Raises:
-        UsageError: the RGB system is unknown or cannot be stated in a PNG; bits is neither 8 nor 16.
+        UsageError: a primary of the display has a negative y or x, which no chunk can state.
     """
-    if bits not in (8, 16):
-        raise UsageError(f"A PNG has 8 or 16 bits a channel, not {bits}.")
-    about = rgb_system.named(system)
-    name = str(about["name"])
-    chromaticities = list(rgb_system.chromaticities(about))
+    import numpy as np
+
+    chromaticities = [
+        c for pair in (display.white, *display.primaries) for c in pair
+    ]  # cHRM begins with white
     if min(chromaticities) < 0:
-        raise UsageError(f"A PNG cannot state the primaries of {name}: choose another RGB system, or EXR.")
-    pixels, clamped = core().develop(xyz, name, exposure, bits)
-    transfer = str(about["transfer"])
+        raise UsageError(
+            f"A PNG cannot state the primaries of {display.name}: choose another display, or save as EXR."
+        )
+    depth = 8 if bits <= 8 else 16
+    spread: Codes = codes
+    if bits != depth:
+        top, largest = (1 << bits) - 1, (1 << depth) - 1
+        wide = (codes.astype(np.uint32) * largest + top // 2) // top
+        spread = wide.astype(np.uint8) if depth == 8 else wide.astype(np.uint16)
+    srgb = _same(display, displays.named("sRGB"))
+    cicp = next((code for name, code in _CICP.items() if _same(display, displays.named(name))), None)
+    stated = srgb or cicp is not None
+    icc = None
+    if not stated:
+        from illuminant.display import profile
+
+        icc = (display.name, profile.encode(display))
     content = core().encode_png(
-        pixels,
-        chromaticities=[*chromaticities[6:], *chromaticities[:6]],  # cHRM begins with white
+        spread,
+        chromaticities=chromaticities,
         # The sRGB curve is near a power of 2.2, which the specification tells readers without sRGB and cICP to use.
-        gamma=2.2 if transfer == "sRGB" else rgb_system.gamma(transfer),
-        cicp=_CICP.get(name),
-        srgb=name == "sRGB",
-        text=list(text.items()),
+        gamma=2.2 if display.response == "sRGB" else display.gamma,
+        cicp=cicp,
+        srgb=srgb,
+        icc=icc,
+        significant_bits=None if bits == depth else bits,
+        text=[*text.items(), ("Display", json.dumps(display.to_dict()))],
     )
-    return bytes(content), float(clamped)
+    return bytes(content)
+
+
+def _same(one: Display, other: Display) -> bool:
+    """Whether two displays answer code values alike, whatever their names and luminances."""
+    return (one.primaries, one.white, one.response) == (other.primaries, other.white, other.response)
 
 
 def chunks(content: bytes) -> Iterator[tuple[bytes, bytes]]:
@@ -148,7 +180,7 @@ def _text(kind: bytes, data: bytes) -> tuple[str, str]:
     return name, (zlib.decompress(body) if compressed else body).decode("utf-8")
 
 
-def read_header(path: str | Path) -> Header:
+def read_header(path: str | os.PathLike[str]) -> Header:
     """Read what a PNG file says of itself.
 
     Raises:
@@ -158,31 +190,77 @@ def read_header(path: str | Path) -> Header:
         content = Path(path).read_bytes()
     except OSError as error:
         raise ImageError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
-    width = height = bits = 0
-    system: str | None = None
+    width = height = depth = bits = 0
+    found: dict[bytes, bytes] = {}
     text: dict[str, str] = {}
     try:
         for kind, data in chunks(content):
             if kind == b"IHDR":
-                width, height, bits = struct.unpack_from(">IIB", data)
-            elif kind == b"sRGB":
-                system = system or "sRGB"
-            elif kind == b"cICP":
-                system = _SYSTEM_OF_CICP.get((data[0], data[1]), system)
+                width, height, depth = struct.unpack_from(">IIB", data)
+            elif kind == b"sBIT":
+                bits = max(data)
             elif kind in (b"tEXt", b"zTXt", b"iTXt"):
                 name, value = _text(kind, data)
                 text[name] = value
+            else:
+                found.setdefault(kind, data)
+        display = _stated(text, found)
     except (ValueError, IndexError, struct.error, zlib.error) as error:
         raise ImageError(f"{path} is not a whole PNG: {error}.") from error
-    return Header(width, height, bits, text.get("RGB system", system), text)
+    if not 0 < width * height <= LARGEST:
+        raise ImageError(f"{path} has {width} × {height} pixels: 1 to {LARGEST:,} are read.")
+    return Header(width, height, bits if 0 < bits <= depth else depth, display, text)
 
 
-def decode(path: str | Path) -> tuple[Array, Header]:
-    """Read the linear colour of a PNG.
+def _stated(text: dict[str, str], found: dict[bytes, bytes]) -> Display | None:
+    """The display that a file states: our own text first, then the chunks in the order of the specification."""
+    if "Display" in text:
+        try:
+            return displays.described(json.loads(text["Display"]), "its text `Display`")
+        except (DataError, ValueError, RecursionError, AttributeError, TypeError):
+            pass  # another program's text of that name; the chunks say it too
+    if b"cICP" in found:
+        code = (found[b"cICP"][0], found[b"cICP"][1])
+        name = next((name for name, known in _CICP.items() if known[:2] == code), _OTHER_CICP.get(code))
+        if name is not None:
+            return displays.named(name)
+    if b"iCCP" in found:
+        from illuminant.display import profile
+
+        _, _, rest = found[b"iCCP"].partition(b"\0")
+        try:
+            return displays.of_profile(
+                profile.decode(_inflated(rest[1:]), "its ICC profile"), "its ICC profile"
+            )
+        except (DataError, UsageError):
+            pass
+    if b"sRGB" in found:
+        return displays.named("sRGB")
+    if b"gAMA" in found and b"cHRM" in found:
+        exponent = 100_000 / max(struct.unpack(">I", found[b"gAMA"])[0], 1)
+        xy = [value / 100_000 for value in struct.unpack(">8I", found[b"cHRM"])]
+        pairs = tuple(zip(xy[::2], xy[1::2], strict=True))
+        try:
+            return Display("stated by cHRM and gAMA", pairs[1:], pairs[0], f"gamma {exponent:.6g}")  # type: ignore[arg-type]
+        except UsageError:
+            return None
+    return None
+
+
+def _inflated(data: bytes) -> bytes:
+    """Decompressed data of at most LARGEST_PROFILE bytes."""
+    content = zlib.decompressobj().decompress(data, LARGEST_PROFILE + 1)
+    if len(content) > LARGEST_PROFILE:
+        raise ValueError("its ICC profile is too large")
+    return content
+
+
+def decode(path: str | os.PathLike[str]) -> tuple[Codes, int, Header]:
+    """Read the code values of a PNG.
 
     Returns:
-        XYZ (h, w, 3), relative: the white of the RGB system has Y = 1. A file that names no RGB system is
-        taken as sRGB.
+        Codes (h, w, 3), uint8 or uint16, from 0 to 2^bits − 1; the bits of a channel; and what the file says of itself.
+        A grey file has three equal channels; opacity is left out.
 
     Raises:
         ImageError: the file is not there, is no whole PNG, or cannot be decoded.
@@ -191,13 +269,19 @@ def decode(path: str | Path) -> tuple[Array, Header]:
     import OpenImageIO as oiio
 
     header = read_header(path)
-    file = oiio.ImageInput.open(str(path))
-    pixels = None if file is None else file.read_image(oiio.DOUBLE)
+    # Codes as they are: the library would otherwise multiply colour by opacity.
+    plain = oiio.ImageSpec()
+    plain.attribute("oiio:UnassociatedAlpha", 1)
+    file = oiio.ImageInput.open(str(path), plain)
+    wide = header.bits > 8
+    pixels = None if file is None else file.read_image(oiio.UINT16 if wide else oiio.UINT8)
     if file is None or pixels is None:
         raise ImageError(f"{path} cannot be read: {oiio.geterror() or 'it is damaged'}.")
     spec = file.spec()
     file.close()
     pixels = np.asarray(pixels).reshape(spec.height, spec.width, spec.nchannels)
-    rgb = pixels[..., :3] if spec.nchannels >= 3 else np.repeat(pixels[..., :1], 3, axis=2)
-    about = rgb_system.named(header.system or "sRGB")
-    return rgb_system.linear(rgb, str(about["transfer"])) @ np.asarray(about["to_xyz"]).T, header
+    codes = pixels[..., :3] if spec.nchannels >= 3 else np.repeat(pixels[..., :1], 3, axis=2)
+    largest, top = (65535 if wide else 255), (1 << header.bits) - 1
+    if top != largest:
+        codes = ((codes.astype(np.uint32) * top + largest // 2) // largest).astype(codes.dtype)
+    return np.ascontiguousarray(codes), header.bits, header

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from illuminant.kept_spectra import KeptSpectra
     from illuminant.scene import Scene
 
     Array = NDArray[np.floating[Any]]
@@ -316,14 +317,29 @@ class Job:
             "peak_memory": machine.peak_memory(),
         }
         spectra = "spectra" in layers
+        order = np.argsort(render.wavelengths(), kind="stable")
+        for name in [name for name in layers if name.partition(":")[0] == "spectra"]:
+            layers[name] = layers[name][..., order]
         return Image(
             np.asarray(render.layer("xyz")),
             layers=layers,
             settings=self._header(int(held.max()), statistics),
             exposure=self.exposure,
             statistics=statistics,
-            wavelengths_nm=np.asarray(render.wavelengths()) if spectra else None,
-            to_xyz=np.asarray(render.to_xyz()) if spectra else None,
+            wavelengths_nm=np.asarray(render.wavelengths())[order] if spectra else None,
+            to_xyz=np.asarray(render.to_xyz())[:, order] if spectra else None,
+            basis=self._basis() if spectra else None,
+        )
+
+    def _basis(self) -> KeptSpectra:
+        """What the lanes of the image mean."""
+        from illuminant.kept_spectra import KeptSpectra
+
+        description = self.scene.description
+        settings = self.settings
+        fog = description.get("atmosphere") is not None
+        return KeptSpectra.of_render(
+            self.core_render, description["range"], settings.sampling, settings.develop_for, fog
         )
 
     def _header(self, most: int, statistics: dict[str, Any]) -> dict[str, Any]:
@@ -429,6 +445,7 @@ def render(
     layers: str | tuple[str, ...] | list[str] | None = None,
     keep_spectra: bool | None = None,
     lamps: bool | None = None,
+    develop_for: str | Sequence[str] | None = None,
     time: str | float | None = None,
     error: str | float | None = None,
     sampler: str | None = None,
@@ -475,8 +492,11 @@ def render(
         filter: reconstruction filter and its radius in pixels; default `("gaussian", 1.5)`.
         layers: auxiliary images: `depth`, `normal`, `albedo`, `samples`; of scanline techniques also `terms`, the
             parts `ambient`, `diffuse`, `specular`, `transmitted`, `emitted`.
-        keep_spectra: keep the spectral lanes of every pixel as the layer `spectra`.
+        keep_spectra: keep the spectral lanes of every pixel as the layer `spectra`; with `lamps` those of the light of
+            each lamp as well, as layers `spectra:NAME`.
         lamps: a layer `lamp:NAME` for the light of each lamp.
+        develop_for: lamps under which `illuminant.display.develop` shall show the image later, which `fitted:N` is
+            then to serve too: names of the library, files, or `2856K`.
         time: end when this time is up: seconds, or `"30s"`, `"5m"`.
         error: end at this relative standard error: a fraction, or `"1%"`.
         sampler: which random numbers; default `sobol-owen`, or `random`, `stratified`, `jittered`, `poisson-disk`.
@@ -540,6 +560,7 @@ def render(
         layers=layers,
         keep_spectra=keep_spectra,
         lamps=lamps,
+        develop_for=develop_for,
         time=time,
         error=error,
         sampler=sampler,

@@ -96,6 +96,7 @@ class Settings:
         layers: auxiliary images (`LAYERS`).
         keep_spectra: whether the lanes are kept.
         lamps: whether there is a layer for each lamp.
+        develop_for: lamps under which the image shall be seen later, which a fitted sampling is to serve too.
         time: seconds after which to end, or None.
         error: relative standard error at which to end (0.01 is 1 %), or None.
         sampler: which random numbers: `sobol-owen`, `random`, `stratified`, `jittered` or `poisson-disk`.
@@ -135,6 +136,7 @@ class Settings:
     layers: tuple[str, ...] = ()
     keep_spectra: bool = False
     lamps: bool = False
+    develop_for: tuple[str, ...] = ()
     time: float | None = None
     error: float | None = None
     sampler: str = "sobol-owen"
@@ -183,6 +185,7 @@ class Settings:
                 "threads": self.threads,
                 "filter": {"kind": kind, "radius": radius},
                 "layers": layers,
+                "develop_for": [_every_nm(lamp) for lamp in self.develop_for],
                 "replicates": self.replicates,
                 "sampler": self.sampler,
                 "strata": min(self.samples or UNKNOWN_SAMPLES, 65536),
@@ -230,6 +233,7 @@ class Settings:
             "sampler": self.sampler,
             "replicates": self.replicates,
             **({} if self.error is None else {"error": self.error}),
+            **({"develop_for": ",".join(self.develop_for)} if self.develop_for else {}),
             **({"caustics": True} if self.caustics else {}),
             **(self._scanline() if self.technique in SCANLINE else {}),
             **(self._ray_trees() if self.technique in RAY_TREES else {}),
@@ -359,6 +363,8 @@ def resolve(defaults: Mapping[str, Any] | None = None, **given: Any) -> Settings
         isinstance(chosen["ambient"], (int, float)) and 0 <= chosen["ambient"] <= 10
     ):
         raise UsageError(f"--ambient {chosen['ambient']}: expected a fraction from 0 to 10, such as 0.15.")
+    if "develop_for" in chosen:
+        chosen["develop_for"] = _lamps(chosen["develop_for"], str(chosen.get("sampling", Settings.sampling)))
     if "layers" in chosen:
         chosen["layers"] = _names("layers", chosen["layers"], LAYERS)
     for name, least, most in (
@@ -386,6 +392,35 @@ def _whole(name: str, value: Any, least: int, most: int) -> int:
         name = name.replace("_", "-")
         raise UsageError(f"--{name} {value}: expected a whole number from {least} to {most}.")
     return number
+
+
+def _lamps(value: str | Sequence[str], sampling: str) -> tuple[str, ...]:
+    """Lamps by their names, each of which means a light that can be seen."""
+    from illuminant.errors import DataError
+
+    names = value.split(",") if isinstance(value, str) else list(value)
+    names = list(dict.fromkeys(name.strip() for name in names if name.strip()))
+    for name in names:
+        try:
+            light = _every_nm(name)
+        except (DataError, UsageError) as error:
+            raise UsageError(f"--develop-for {name}: {str(error).rstrip('.')}.") from None
+        if not any(light):
+            raise UsageError(f"--develop-for {name}: it has no light from 360 to 830 nm.")
+    if names and sampling.partition(":")[0] != "fitted":
+        raise UsageError(
+            f"--develop-for {','.join(names)}: only fitted:N is made for lamps; {sampling} is what it is."
+        )
+    return tuple(names)
+
+
+def _every_nm(lamp: str) -> list[float]:
+    """The spectrum that a word means at each nm that an observer sees, 360 to 830."""
+    import numpy as np
+
+    from illuminant import spectrum_word
+
+    return [float(value) for value in spectrum_word.light(lamp).at(np.arange(360.0, 831.0))]
 
 
 def size_of(value: str | Sequence[int]) -> tuple[int, int]:

@@ -181,9 +181,13 @@ def test_one_path_is_followed_again(scene: Path, inside: Command) -> None:
         (["ball.toml", "-o", "a.jpg"], "saved as .exr"),
         (["ball.toml", "--size", "1000000000x1000000000"], "that is 1e+18 pixels"),
         (["ball.toml", "--samples", "0"], "--samples 0: expected a whole number"),
-        (["ball.toml", "--exposure", "-1"], "--exposure -1: expected a positive number."),
+        (["ball.toml", "--exposure", "-1"], "An exposure is a positive number, not -1."),
         (["ball.toml", "--rgb", "CMYK"], "no RGB system 'CMYK'"),
-        (["ball.toml", "--bits", "12"], "8 or 16 bits"),
+        (["ball.toml", "--bits", "17"], "1 to 16 bits"),
+        (["ball.toml", "--display", "CRT"], "There is no display 'CRT': known are sRGB"),
+        (["ball.toml", "--gamut", "squash"], "There is no gamut method 'squash'"),
+        (["ball.toml", "--dither", "salt"], "There is no dither 'salt'"),
+        (["ball.toml", "--tone", "loud"], "There is no tone operator 'loud'"),
         (["ball.toml", "--sampling", "uniform:99"], "99"),
         (["ball.toml", "--sampling", "rainbow"], "rainbow"),
         (["ball.toml", "--technique", "magic"], "magic"),
@@ -345,9 +349,15 @@ def test_a_render_can_be_watched_and_stopped_from_python(scene: Path) -> None:
 def test_ctrl_c_in_python_raises_with_the_image(scene: Path) -> None:
     from illuminant.rendering import RenderInterrupted, render
 
+    # A shell that starts the tests in the background has them ignore Ctrl-C.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+
     def interrupt(now: object) -> None:
         signal.raise_signal(signal.SIGINT)
 
-    with pytest.raises(RenderInterrupted, match=r"(every pixel holds|some pixels hold)") as caught:
-        render(scene, samples=10**6, progress=interrupt)
+    try:
+        with pytest.raises(RenderInterrupted, match=r"(every pixel holds|some pixels hold)") as caught:
+            render(scene, samples=10**6, progress=interrupt)
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert isinstance(caught.value.image, Image)

@@ -106,7 +106,7 @@ YIQ = "CLR_get_rgb_yiq / CLR_get_yiq_rgb"
 def test_yiq(case):
     rgb = case["in"]["rgb"]
     close(YIQ, color.rgb_to_yiq(rgb), case["out"]["yiq"])
-    close(YIQ, color.yiq_to_rgb(color.rgb_to_yiq(rgb)), case["out"]["rgb_back"])
+    close(YIQ, color.yiq_to_rgb(color.rgb_to_yiq(rgb), matrix="book"), case["out"]["rgb_back"])
     close(YIQ, color.monochrome(rgb), case["out"]["monochrome"])
 
 

@@ -85,13 +85,17 @@ def test_half_floats_are_refused_where_they_would_overflow(tmp_path: Path) -> No
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.exr"]
 
 
-def test_a_file_from_elsewhere_without_chromaticities_is_rec709(tmp_path: Path) -> None:
+def test_a_file_that_does_not_say_its_primaries_is_questioned(tmp_path: Path) -> None:
     spec = oiio.ImageSpec(2, 1, 3, oiio.FLOAT)
     file = oiio.ImageOutput.create("a.exr")
     file.open(str(tmp_path / "a.exr"), spec)
     file.write_image(np.ones((1, 2, 3), np.float32))
     file.close()
-    image = Image.open(tmp_path / "a.exr")
+    with pytest.raises(
+        ImageError, match=r"a\.exr does not say which primaries its numbers are for: name their RGB system"
+    ):
+        Image.open(tmp_path / "a.exr")
+    image = Image.open(tmp_path / "a.exr", assume="Rec.709")
     np.testing.assert_allclose(image.xyz[0, 0], [0.9505, 1.0, 1.0891], atol=2e-4)
     assert image.unit == "relative" and image.exposure is None
 

@@ -9,6 +9,7 @@
 
 mod ac1c2;
 mod adaptation;
+mod cam16;
 mod chromaticity;
 mod conversion;
 mod difference;
@@ -22,6 +23,7 @@ mod luv;
 mod matrix;
 mod metamer;
 mod metric;
+mod oklab;
 mod published;
 mod rendering_index;
 mod rgb_system;
@@ -34,6 +36,7 @@ mod yiq;
 
 pub use ac1c2::XYZ_TO_AC1C2;
 pub use adaptation::Adaptation;
+pub use cam16::Cam16;
 pub use chromaticity::{project, uvy_to_xyz, xyy_to_xyz, xyz_to_uvy, xyz_to_xyy};
 pub use conversion::{Conversion, convert, convert_in_place, differences};
 pub use difference::{Difference, delta_e_2000};
@@ -47,6 +50,7 @@ pub use luv::LuvWhite;
 pub use matrix::{Matrix, Singular};
 pub use metamer::{Metamer, MetamerError, fundamental, metamer};
 pub use metric::delta_e_2000_metric;
+pub use oklab::Oklab;
 pub use published::{REC709_LUMA, published, published_names};
 pub use rendering_index::{RenderingError, RenderingIndex, rendering_index, test_color_samples};
 pub use rgb_system::{RgbSystem, rgb_system_names};

@@ -1,6 +1,7 @@
 //! PNG files that say how their numbers are meant.
 
 use crate::Pixels;
+use std::io::Write;
 use thiserror::Error;
 
 /// Why no PNG could be made.
@@ -16,6 +17,9 @@ pub enum PngError {
         /// Rows.
         height: u32,
     },
+    /// A number that a chunk cannot hold.
+    #[error("a PNG cannot state {0}")]
+    Number(String),
     /// The encoder failed.
     #[error("the PNG cannot be encoded: {0}")]
     Encoding(#[from] png::EncodingError),
@@ -32,6 +36,10 @@ pub struct PngTags {
     pub cicp: Option<[u8; 4]>,
     /// Whether the image is sRGB with the intent "relative colorimetric", for sRGB.
     pub srgb: bool,
+    /// Name (Latin-1, up to 79 characters) and bytes of an ICC profile, for iCCP.
+    pub icc: Option<(String, Vec<u8>)>,
+    /// How many bits of each channel carry the image, for sBIT.
+    pub significant_bits: Option<u8>,
     /// Keywords (Latin-1, up to 79 characters) and texts, for iTXt.
     pub text: Vec<(String, String)>,
 }
@@ -60,19 +68,37 @@ pub fn encode_png(pixels: &Pixels, width: u32, height: u32, tags: &PngTags) -> R
     }
     let mut writer = encoder.write_header()?;
     // The encoder would add gAMA and cHRM of its own beside sRGB; here each chunk is what was asked for.
-    let scaled = |v: f64| ((v * 100_000.0).round() as i64 as u32).to_be_bytes();
+    let scaled = |what: &str, v: f64| {
+        let number = (v * 100_000.0).round();
+        let fits = (0.0..=f64::from(i32::MAX)).contains(&number);
+        if fits { Ok((number as u32).to_be_bytes()) } else { Err(PngError::Number(format!("{what} {v}"))) }
+    };
     if let Some(cicp) = tags.cicp {
         writer.write_chunk(png::chunk::ChunkType(*b"cICP"), &cicp)?;
+    }
+    if let Some((name, profile)) = &tags.icc {
+        writer.write_chunk(png::chunk::iCCP, &profile_chunk(name, profile)?)?;
     }
     if tags.srgb {
         writer.write_chunk(png::chunk::sRGB, &[1])?;
     }
     if let Some(gamma) = tags.gamma {
-        writer.write_chunk(png::chunk::gAMA, &scaled(1.0 / gamma))?;
+        writer.write_chunk(png::chunk::gAMA, &scaled("the exponent", 1.0 / gamma)?)?;
     }
     if let Some(chromaticities) = tags.chromaticities {
-        let bytes: Vec<u8> = chromaticities.iter().flatten().flat_map(|&v| scaled(v)).collect();
-        writer.write_chunk(png::chunk::cHRM, &bytes)?;
+        let numbers: Vec<[u8; 4]> = chromaticities
+            .iter()
+            .flatten()
+            .map(|&v| scaled("the chromaticity", v))
+            .collect::<Result<_, _>>()?;
+        writer.write_chunk(png::chunk::cHRM, &numbers.concat())?;
+    }
+    if let Some(bits) = tags.significant_bits {
+        let depth = if matches!(pixels, Pixels::Eight(_)) { 8 } else { 16 };
+        if !(1..=depth).contains(&bits) {
+            return Err(PngError::Number(format!("{bits} significant bits of {depth}")));
+        }
+        writer.write_chunk(png::chunk::ChunkType(*b"sBIT"), &[bits; 3])?;
     }
     match pixels {
         Pixels::Eight(codes) => writer.write_image_data(codes)?,
@@ -83,6 +109,19 @@ pub fn encode_png(pixels: &Pixels, width: u32, height: u32, tags: &PngTags) -> R
     }
     writer.finish()?;
     Ok(file)
+}
+
+/// The data of an iCCP chunk: name, zero, method zero, and the profile compressed.
+fn profile_chunk(name: &str, profile: &[u8]) -> Result<Vec<u8>, PngError> {
+    let latin = |c: &char| matches!(c, ' '..='~' | '\u{a1}'..='\u{ff}');
+    let plain: String = name.chars().filter(latin).collect();
+    let words = plain.split_whitespace().collect::<Vec<_>>().join(" ");
+    let keyword: Vec<u8> = words.chars().take(79).map(|c| c as u8).collect();
+    let mut data = if keyword.is_empty() { b"ICC profile".to_vec() } else { keyword };
+    data.extend([0, 0]);
+    let mut stream = flate2::write::ZlibEncoder::new(data, flate2::Compression::default());
+    stream.write_all(profile).map_err(png::EncodingError::IoError)?;
+    Ok(stream.finish().map_err(png::EncodingError::IoError)?)
 }
 
 #[cfg(test)]

@@ -98,6 +98,9 @@ impl Curve {
             }
             _ => {}
         }
+        if !self.is_finite() || !rises(&self.samples(SAMPLES)) || !(self.linear(0.0) < self.linear(1.0)) {
+            return refuse("does not rise from black to white".into());
+        }
         let white = self.unclipped(1.0);
         if !((white - 1.0).abs() <= 1e-3) {
             return refuse(format!("makes {white} of the code 1, and it should make 1"));
@@ -153,7 +156,8 @@ impl Curve {
     fn is_finite(&self) -> bool {
         match self {
             Self::Gamma(gamma) => *gamma > 0.0,
-            other => other.samples(257).iter().all(|v| v.is_finite()),
+            Self::Parametric([g, ..]) if !(*g > 0.0) => false,
+            other => (0..=256).all(|i| other.unclipped(f64::from(i) / 256.0).is_finite()),
         }
     }
 }

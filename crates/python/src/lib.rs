@@ -7,6 +7,7 @@ mod arrays;
 mod color;
 mod colorimetry;
 mod display;
+mod dither;
 mod icc;
 mod optics;
 mod radiosity;
@@ -29,6 +30,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     colorimetry::register(m)?;
     display::register(m)?;
     icc::register(m)?;
+    dither::register(m)?;
     optics::register(m)?;
     sampling::register(m)?;
     scene::register(m)?;

@@ -3,8 +3,10 @@
 use crate::radiosity::PySolution;
 use crate::scene::PyScene;
 use illuminant_illumination::Illumination;
+use illuminant_sampling::Role;
 use illuminant_technique::pairs::{Pair, pair};
-use illuminant_technique::{Progress, Render, RenderError, Settings, Technique, Vertex};
+
+use illuminant_technique::{Progress, Render, RenderError, Settings, Technique, Vertex, reflectances};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{PyArray1, PyArray2, PyArray3, ToPyArray};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
@@ -12,6 +14,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
 use std::time::Duration;
+
+/// Name, spectrum and samples of a lamp.
+type LampSpectrum<'py> = (String, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
 /// A render under way.
 #[pyclass(name = "Render", module = "illuminant._core")]
@@ -207,6 +212,24 @@ impl PyRender {
         let rows = self.0.basis().to_xyz(lamp);
         let flat: Vec<f64> = rows.iter().flatten().copied().collect();
         Ok(shaped(Array2::from_shape_vec((3, flat.len() / 3), flat))?.to_pyarray(py))
+    }
+
+    /// Each lamp: its name, its spectrum at each nm of the scene's range, and its light in the spectral samples.
+    fn lamp_spectra<'py>(&self, py: Python<'py>) -> Vec<LampSpectrum<'py>> {
+        let scene = self.0.scene();
+        let of = |lamp: &illuminant_scene::Lamp| {
+            let samples = self.0.basis().reduce(&lamp.spectrum, Role::Emission);
+            let every_nm = lamp.spectrum.tabulate(scene.range);
+            (lamp.name.clone(), PyArray1::from_vec(py, every_nm), PyArray1::from_vec(py, samples))
+        };
+        scene.lamps.iter().map(of).collect()
+    }
+
+    /// The reflectances of what stands in the scene at each nm of its range: each once, and none that changes no colour.
+    fn reflectances<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyArray1<f64>>> {
+        let scene = self.0.scene();
+        let tables = reflectances(scene).into_iter().map(|curve| curve.tabulate(scene.range));
+        tables.map(|table| PyArray1::from_vec(py, table)).collect()
     }
 
     /// The queries of these samples again, without shading: their number and the seconds they take.

@@ -85,7 +85,8 @@ impl SpectralError {
 #[must_use]
 pub fn compare(basis: &dyn Basis, products: &Products) -> Vec<Comparison> {
     let fractions: Vec<_> = products.reflectances.iter().map(|r| basis.reduce(r, Role::Fraction)).collect();
-    let lamps: Vec<_> = (0..products.lamps.len())
+    // A sampling knows the lamps that are here, not those it only makes ready for.
+    let lamps: Vec<_> = (0..products.together.min(products.lamps.len()))
         .map(|lamp| {
             let light = basis.reduce(&products.lamps[lamp], Role::Emission);
             (light, basis.to_xyz(lamp), products.weights_of_lamp(lamp))
@@ -96,7 +97,7 @@ pub fn compare(basis: &dyn Basis, products: &Products) -> Vec<Comparison> {
         .par_iter()
         .filter_map(|item| {
             let ([part], Some(factors)) = (item.parts.as_slice(), &item.factors) else { return None };
-            let (light, map, weights) = &lamps[part.lamp];
+            let (light, map, weights) = lamps.get(part.lamp)?;
             let value = |i: usize| factors.iter().fold(light[i], |v, &m| v * fractions[m][i]);
             let lanes: Vec<f64> = (0..light.len()).map(value).collect();
             Some(Comparison {

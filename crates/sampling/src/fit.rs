@@ -74,7 +74,7 @@ pub(crate) fn fit(products: &Products, n: usize) -> Option<Fit> {
     let mut weights = vec![None; products.lamps.len()];
     for (side, rows) in sides.iter().zip(by_side) {
         for &lamp in &side.lamps {
-            let luminance = if products.one_map { 1.0 } else { products.xyz_of_lamp(lamp)[1] };
+            let luminance = if products.shares_map(lamp) { 1.0 } else { products.xyz_of_lamp(lamp)[1] };
             weights[lamp] = Some(rows.clone().map(|row| row.iter().map(|v| v * luminance).collect()));
         }
     }

@@ -16,7 +16,7 @@ pub struct Fitted {
     wavelengths_nm: Vec<f64>,
     /// Whether the lamps share one map: then the light of a lane is that at its wavelength.
     one_map: bool,
-    /// For each lamp, what its light in each lane is worth.
+    /// For each lamp that is here already, what its light in each lane is worth.
     maps: Vec<ToXyz>,
 }
 
@@ -36,6 +36,7 @@ impl Fitted {
             .lamps
             .iter()
             .zip(found.weights)
+            .take(products.together)
             .map(|(lamp, weights)| {
                 let light = if fitted.one_map { vec![1.0; n] } else { fitted.reduce(lamp, Role::Emission) };
                 let per_unit = |row: Vec<f64>| row.iter().zip(&light).map(|(v, l)| v / l).collect();

@@ -62,7 +62,9 @@ impl Side {
         let mut side_of = vec![None; products.lamps.len()];
         for lamp in 0..products.lamps.len() {
             let Some(kind) = products.kind(lamp) else { continue };
-            let found = if products.one_map { sides.len().checked_sub(1) } else { side_of[kind] };
+            // The lamps that share one map are the first, so theirs is the first side.
+            let found =
+                if products.shares_map(lamp) { (!sides.is_empty()).then_some(0) } else { side_of[kind] };
             let side = found.unwrap_or_else(|| {
                 sides.push(Self::empty(products.range.len()));
                 sides.len() - 1
@@ -72,7 +74,7 @@ impl Side {
         }
         // Where lamps share a map their own spectra are part of what it meets; else the map contains the spectrum.
         let feature = |lamp: usize, filter: &[f64]| -> Vec<f64> {
-            if products.one_map {
+            if products.shares_map(lamp) {
                 tables[lamp].iter().zip(filter).map(|(l, f)| l * f).collect()
             } else {
                 filter.iter().map(|f| luminance[lamp] * f).collect()

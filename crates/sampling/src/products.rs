@@ -51,6 +51,8 @@ pub struct Products {
     pub reflectances: Vec<Curve>,
     /// Whether all lamps must share one map to XYZ, as they must where their light is kept together.
     pub one_map: bool,
+    /// How many of the lamps that concerns, from the first; those behind them always have maps of their own.
+    pub together: usize,
     /// What materials that are not known weigh beside the colours: a fit is to serve them too.
     pub unknown: f64,
     /// The colours.
@@ -90,9 +92,20 @@ impl Products {
         let lamp_xyz: Vec<Triple> = lamps.iter().map(|l| Observer::cie_1931_2deg().xyz(l, range)).collect();
         let kinds = kinds(&lamps, &lamp_xyz, range);
         kinds.iter().flatten().next()?;
+        let together = lamps.len();
         let reflectances = Vec::new();
         let items = Vec::new();
-        Some(Self { range, lamps, reflectances, one_map: false, unknown: UNKNOWN, items, lamp_xyz, kinds })
+        Some(Self {
+            range,
+            lamps,
+            reflectances,
+            one_map: false,
+            together,
+            unknown: UNKNOWN,
+            items,
+            lamp_xyz,
+            kinds,
+        })
     }
 
     /// Adds the products of one to `depth` of the reflectances under each kind of lamp, each seen beside a perfect
@@ -138,6 +151,12 @@ impl Products {
             let white = white_of(self.lamp_xyz[lamp]);
             self.items.push(Product { parts, white, weight, factors: factors.map(<[usize]>::to_vec) });
         }
+    }
+
+    /// Whether a lamp shares its map to XYZ with others, whatever their spectra.
+    #[must_use]
+    pub fn shares_map(&self, lamp: usize) -> bool {
+        self.one_map && lamp < self.together
     }
 
     /// The lamp that stands for a lamp; `None` for one without light that the observer sees.

@@ -115,3 +115,22 @@ fn a_lamp_so_red_that_it_has_no_z_is_a_lamp() {
         assert_eq!(boxes.len(), 9);
     }
 }
+
+#[test]
+fn wavelengths_serve_lamps_that_come_later_and_weights_the_lamps_that_are_here() {
+    let (day, lines) = (lamp("d65"), lamp("fl11"));
+    let mut both = products(&[day.clone(), lines], 400);
+    both.one_map = true;
+    both.together = 1;
+    let alone = products(&[day], 400);
+    let with = Fitted::new(8, SpectralRange::default(), &both).unwrap();
+    let mut shared = alone.clone();
+    shared.one_map = true;
+    let without = Fitted::new(8, SpectralRange::default(), &shared).unwrap();
+    let wavelengths = |basis: &Fitted| (0..8).map(|i| basis.wavelength_nm(i)).collect::<Vec<_>>();
+    assert_ne!(wavelengths(&with), wavelengths(&without));
+    // Under its own lamp it is nearly as good as one that knows of no other.
+    let error = |basis: &Fitted| SpectralError::over(&compare(basis, &alone));
+    let (with, without) = (error(&with), error(&without));
+    assert!(with.mean < 0.3 && with.max < 3.0, "{with:?} beside {without:?}");
+}

@@ -169,7 +169,7 @@ impl Film {
         }
         for layer in &settings.layers {
             match layer {
-                Layer::Xyz | Layer::Halves => {}
+                Layer::Xyz | Layer::Halves | Layer::LampSpectra => {}
                 Layer::Lamps => lamps.iter().for_each(|name| push(Layer::Lamps, format!("lamp:{name}"), 3)),
                 Layer::Spectra => push(Layer::Spectra, "spectra".into(), spectral),
                 Layer::Depth => push(Layer::Depth, "depth".into(), 2),
@@ -178,6 +178,9 @@ impl Film {
                 Layer::Emission => push(Layer::Emission, "emission".into(), 1),
                 Layer::Terms => TERMS.iter().for_each(|name| push(Layer::Terms, (*name).into(), 3)),
             }
+        }
+        if [Layer::Lamps, Layer::Spectra].iter().all(|layer| settings.layers.contains(layer)) {
+            lamps.iter().for_each(|name| push(Layer::LampSpectra, format!("spectra:{name}"), spectral));
         }
         (plan, channels)
     }

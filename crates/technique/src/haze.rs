@@ -36,7 +36,8 @@ impl Haze {
                 // Fog is the light of no lamp and of no term but what is emitted.
                 _ => 0.0,
             };
-            if matches!(layer.layer, Layer::Xyz | Layer::Spectra | Layer::Terms | Layer::Lamps) {
+            let light = matches!(layer.layer, Layer::Xyz | Layer::Terms | Layer::Lamps);
+            if light || matches!(layer.layer, Layer::Spectra | Layer::LampSpectra) {
                 channels.extend(layer.channels.clone().enumerate().map(|(i, channel)| (channel, own(i))));
             }
         }

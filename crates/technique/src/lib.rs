@@ -37,7 +37,7 @@ pub use radiosity::{
 pub use render::{Dropped, Progress, Render, RenderError, Statistics};
 pub use sampler::Sampler;
 pub use scanline::edges;
-pub use scene_products::{basis, products, spectral_error};
+pub use scene_products::{basis, products, reflectances, spectral_error};
 pub use sequence::Sequence;
 pub use settings::{
     Antialiasing, Infinite, Interpolation, Layer, LightCentres, Settings, Shading, Shadows, Technique,

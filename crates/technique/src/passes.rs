@@ -402,7 +402,8 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> TileRenderer for Passes<
 
 /// The layers that come from lanes: each lamp by itself, and the lanes themselves.
 fn spectral_layers<const N: usize, M>(job: &Job, pass: &Pass<N, M>, light: &[Lanes<N>], values: &mut [f32]) {
-    let mut lamp = 0;
+    let (mut lamp, mut lamp_of_lanes) = (0, 0);
+    let undispersed = pass.dispersed.unwrap_or(light.len());
     for layer in &job.plan {
         match layer.layer {
             Layer::Lamps => {
@@ -416,21 +417,36 @@ fn spectral_layers<const N: usize, M>(job: &Job, pass: &Pass<N, M>, light: &[Lan
                 }
             }
             Layer::Spectra => {
-                let undispersed = pass.dispersed.unwrap_or(light.len());
                 let channels = &mut values[layer.channels.clone()];
-                for light in &light[..undispersed] {
-                    for (slot, v) in channels[pass.own_samples()].iter_mut().zip(&light.0) {
-                        *slot += v;
-                    }
-                }
-                // A wavelength of its own is kept in the sample that stands for its part of the spectrum.
-                if let Some(companion) = &pass.companion {
-                    for light in &light[undispersed..] {
-                        channels[companion.stand_in] += light.0[companion.lane] * companion.share;
-                    }
-                }
+                add_lanes(pass, &light[..undispersed], &light[undispersed..], channels);
+            }
+            Layer::LampSpectra => {
+                let group = job.group_of[lamp_of_lanes];
+                lamp_of_lanes += 1;
+                let dispersed = pass.dispersed.map_or(&[][..], |first| &light[first + group..=first + group]);
+                add_lanes(pass, &light[group..=group], dispersed, &mut values[layer.channels.clone()]);
             }
             _ => {}
+        }
+    }
+}
+
+/// Adds bundles to the channels of the lanes.
+fn add_lanes<const N: usize, M>(
+    pass: &Pass<N, M>,
+    undispersed: &[Lanes<N>],
+    dispersed: &[Lanes<N>],
+    channels: &mut [f32],
+) {
+    for light in undispersed {
+        for (slot, v) in channels[pass.own_samples()].iter_mut().zip(&light.0) {
+            *slot += v;
+        }
+    }
+    // A wavelength of its own is kept in the sample that stands for its part of the spectrum.
+    if let Some(companion) = &pass.companion {
+        for light in dispersed {
+            channels[companion.stand_in] += light.0[companion.lane] * companion.share;
         }
     }
 }
@@ -516,7 +532,9 @@ pub(crate) fn renderer(
     let companions = wavelengths(scene, basis).filter(|_| bends);
     let companions = companions.as_deref();
     let samples = basis.len() + usize::from(companions.is_some());
-    match lanes_for(samples).unwrap_or(32) {
+    // Any number of samples fits bundles of any size, in passes.
+    let lanes = if cfg!(feature = "only-8-lanes") { 8 } else { lanes_for(samples).unwrap_or(32) };
+    match lanes {
         8 => Ok(of_lanes::<8>(scene, how, basis, companions, groups)),
         #[cfg(not(feature = "only-8-lanes"))]
         4 => Ok(of_lanes::<4>(scene, how, basis, companions, groups)),

@@ -16,7 +16,7 @@ use illuminant_sampling::{
     xyz_by,
 };
 use illuminant_scene::Scene;
-use illuminant_spectrum::Curve;
+use illuminant_spectrum::{Curve, Observer, Outside, SpectralRange};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -181,8 +181,31 @@ fn known(scene: &Scene) -> Option<Products> {
     Products::new(scene.range, scene.lamps.iter().map(|lamp| lamp.spectrum.clone()).collect())
 }
 
+/// The lamps of a scene, and behind them those under which its image shall be seen later, each as bright as the brightest of
+/// the scene.
+fn known_with_later_ones(scene: &Scene, settings: &Settings) -> Option<Products> {
+    let own = known(scene)?;
+    if settings.develop_for.is_empty() {
+        return Some(own);
+    }
+    let together = own.lamps.len();
+    let brightest = (0..together).map(|lamp| own.xyz_of_lamp(lamp)[1]).fold(0.0, f64::max);
+    let observed = SpectralRange { min_nm: 360, max_nm: 830 };
+    let later =
+        settings.develop_for.iter().filter(|values| values.len() == observed.len()).filter_map(|values| {
+            let curve = Curve::tabulated(observed, values.clone(), Outside::Zero);
+            let luminance = Observer::cie_1931_2deg().xyz(&curve, own.range)[1];
+            (luminance > 0.0).then(|| curve.scaled(brightest / luminance))
+        });
+    let lamps = own.lamps.iter().cloned().chain(later).collect();
+    let mut products = Products::new(scene.range, lamps)?;
+    products.together = together;
+    Some(products)
+}
+
 /// The reflectances of what stands in the scene: each once, and none that changes no colour.
-fn reflectances(scene: &Scene) -> Vec<Curve> {
+#[must_use]
+pub fn reflectances(scene: &Scene) -> Vec<Curve> {
     let used: BTreeSet<usize> = scene.objects.iter().map(|object| object.material).collect();
     let mut found: Vec<Curve> = Vec::new();
     for material in used {
@@ -199,15 +222,18 @@ fn reflectances(scene: &Scene) -> Vec<Curve> {
 /// reflections under each lamp. `None` where the observer sees nothing of the light.
 #[must_use]
 pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
-    let mut products = known(scene)?;
-    let kinds: Vec<usize> = products.representatives().collect();
-    products.add_reflectances(&reflectances(scene), 2, MOST_STAND_INS / kinds.len().max(1), SEED);
+    let own = known(scene)?;
+    let kinds: Vec<usize> = own.representatives().collect();
+    let mut products = known_with_later_ones(scene, settings)?;
+    let later: Vec<usize> = products.representatives().filter(|&lamp| lamp >= products.together).collect();
+    let lights = kinds.len() + later.len();
+    products.add_reflectances(&reflectances(scene), 2, MOST_STAND_INS / lights.max(1), SEED);
     products.unknown = UNKNOWN;
     products.one_map = settings.layers.contains(&Layer::Spectra);
-    let probes = probe(scene, settings, &products, Set::Fitting)?;
+    let probes = probe(scene, settings, &own, Set::Fitting)?;
     let Some(white) = white(&probes) else { return Some(products) };
     let stand_ins = products.items.len();
-    let stride = (probes.len() * kinds.len()).div_ceil(MOST_FITTED).max(1);
+    let stride = (probes.len() * lights).div_ceil(MOST_FITTED).max(1);
     for probe in probes.iter().step_by(stride) {
         let total = probe.xyz()[1];
         if total <= 0.0 {
@@ -217,6 +243,12 @@ pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
         let parts = kinds.iter().zip(&probe.parts).filter(|(_, (_, xyz))| counts(xyz));
         let parts = parts.map(|(&lamp, (filter, _))| Part { lamp, filter: filter.clone() }).collect();
         products.items.push(Product { parts, white, weight: 1.0, factors: None });
+        // Under another lamp the pixel shows what its path leaves of that one's light.
+        let brightest = probe.parts.iter().max_by(|(_, a), (_, b)| a[1].total_cmp(&b[1]));
+        for (&lamp, (filter, _)) in later.iter().flat_map(|lamp| brightest.map(|part| (lamp, part))) {
+            let parts = vec![Part { lamp, filter: filter.clone() }];
+            products.items.push(Product { parts, white, weight: 1.0, factors: None });
+        }
     }
     let shown = products.items.len() - stand_ins;
     if shown > 0 {

@@ -177,6 +177,8 @@ pub enum Layer {
     Lamps,
     /// The spectral samples, W·sr⁻¹·m⁻²·nm⁻¹.
     Spectra,
+    /// The spectral samples of the light of each lamp by itself; there when both lamps and spectra are asked for.
+    LampSpectra,
     /// Distance of what the camera sees, m.
     Depth,
     /// Its shading normal.
@@ -209,6 +211,9 @@ pub struct Settings {
     pub filter: Filter,
     /// The layers beside XYZ.
     pub layers: Vec<Layer>,
+    /// Lamps under which the image shall be seen later, which a fitted sampling is to serve too: relative spectra at each nm
+    /// that the observer sees, 360 to 830.
+    pub develop_for: Vec<Vec<f64>>,
     /// Width and height of a tile, pixels.
     pub tile: u32,
     /// 2 keeps two independently scrambled halves, for an estimate of the error.
@@ -255,6 +260,7 @@ impl Default for Settings {
             threads: 0,
             filter: Filter::default(),
             layers: Vec::new(),
+            develop_for: Vec::new(),
             tile: 16,
             replicates: 1,
             sampler: Sampler::default(),

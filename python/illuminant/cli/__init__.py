@@ -9,6 +9,7 @@ Only Typer is imported here: NumPy, the core and everything else wait until a ve
 
 from __future__ import annotations
 
+import functools
 import os
 import re
 import sys
@@ -17,7 +18,25 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from illuminant.cli import audit, check, compare, diff, info, new, radiosity, render, spectra
+from illuminant.cli import (
+    audit,
+    calibrate,
+    check,
+    compare,
+    develop,
+    diff,
+    display,
+    dither,
+    gamma,
+    gamut,
+    info,
+    new,
+    pattern,
+    radiosity,
+    render,
+    spectra,
+    video,
+)
 from illuminant.cli.report import sentence
 
 __all__ = ["app", "main", "run"]
@@ -39,12 +58,20 @@ app = typer.Typer(
 app.command("new", short_help="Write a commented starter scene.")(new.new)
 app.command("check", short_help="Report every mistake of a scene.")(check.check)
 app.command("render", short_help="Render a scene to an image.")(render.render)
+app.command("develop", short_help="Show an image under other lamps, or other eyes.")(develop.develop)
 app.command("compare", short_help="Render by every technique and model.")(compare.compare)
+app.command("display", short_help="Show an image on a display.")(display.display)
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("audit", short_help="Test the physics of a material.")(audit.audit)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
+app.add_typer(gamma.app, name="gamma", short_help="Tables, fits and studies of a monitor's gamma.")
+app.command("pattern", short_help="Draw a test pattern for a display.")(pattern.pattern)
+app.add_typer(calibrate.app, name="calibrate", short_help="Adjust, measure and describe a display.")
+app.add_typer(gamut.app, name="gamut", short_help="Compare what becomes of colours out of gamut.")
+app.add_typer(dither.app, name="dither", short_help="Compare dithers; patterns and halftones.")
 app.add_typer(radiosity.app, name="radiosity", short_help="Solve for light between surfaces, relight.")
 app.add_typer(spectra.app, name="spectra", short_help="List, show, plot, convert measured spectra.")
+app.add_typer(video.app, name="video", short_help="Send pictures through NTSC, and check them.")
 
 
 def _version(wanted: bool) -> None:
@@ -81,6 +108,12 @@ def main(prog_name: str = "illuminant") -> NoReturn:
     sys.exit(run(sys.argv[1:], prog_name))
 
 
+@functools.cache
+def _command() -> Any:
+    """All verbs as Click's command, which takes a quarter of a second to make and does not change."""
+    return typer.main.get_command(app)
+
+
 def run(arguments: Sequence[str], prog_name: str = "illuminant") -> int:
     """Run the command and return its exit code.
 
@@ -98,7 +131,7 @@ def run(arguments: Sequence[str], prog_name: str = "illuminant") -> int:
     debug = "--debug" in arguments
     arguments = [argument for argument in arguments if argument != "--debug"]
     try:
-        code = app(list(arguments), prog_name=prog_name, standalone_mode=False)
+        code = _command()(list(arguments), prog_name=prog_name, standalone_mode=False)
         if code == 130:  # Typer's word for Ctrl-C that no verb has dealt with
             sentence("Interrupted", "nothing was written.")
         return code if isinstance(code, int) else 0
@@ -145,8 +178,8 @@ def _foreign(error: Exception, prog_name: str) -> int:
     context = getattr(error, "ctx", None)
     path = getattr(context, "command_path", prog_name) or prog_name
     text = " ".join(str(message()).split()).rstrip(".")
-    for pattern, plain in _PLAINER:
-        text = re.sub(pattern, plain, text)
+    for theirs, plain in _PLAINER:
+        text = re.sub(theirs, plain, text)
     sentence("Error", f"{text} (see `{path} --help`).")
     return 2
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from illuminant.cli.options import Json
+from illuminant.cli.words import numbers
 
 if TYPE_CHECKING:
     from illuminant.auditing import Audit
@@ -66,8 +67,10 @@ def audit(
     found = run(
         target,
         illumination=illumination,
-        angles_deg=_numbers(angles, "--angles", ANGLES_DEG),
-        wavelengths_nm=_numbers(wavelengths, "--wavelengths", WAVELENGTHS_NM),
+        angles_deg=ANGLES_DEG if angles is None else tuple(numbers(angles, "--angles")),
+        wavelengths_nm=WAVELENGTHS_NM
+        if wavelengths is None
+        else tuple(numbers(wavelengths, "--wavelengths")),
         draws=draws,
     )
     if json:
@@ -86,17 +89,6 @@ def audit(
     if broken:
         sentence("Broken", "; ".join(broken) + ".")
         raise typer.Exit(1)
-
-
-def _numbers(text: str | None, option: str, default: tuple[float, ...]) -> tuple[float, ...]:
-    from illuminant.errors import UsageError
-
-    if text is None:
-        return default
-    try:
-        return tuple(float(part) for part in text.split(","))
-    except ValueError:
-        raise UsageError(f"{option} {text}: expected numbers with commas between them.") from None
 
 
 def _table(one: Audit) -> None:

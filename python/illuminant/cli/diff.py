@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from illuminant.cli.options import Exposure, Json
+from illuminant.cli.options import Assume, Exposure, Json
 
 __all__ = ["diff"]
 
@@ -38,6 +38,7 @@ def diff(
         ),
     ] = None,
     exposure: Exposure = None,
+    assume: Assume = None,
     json: Json = False,
 ) -> None:
     """Compare two images of one size: CIEDE2000 (mean, 95th percentile, max) and FLIP.
@@ -58,7 +59,7 @@ def diff(
         raise UsageError(f"--max {limit:g}: expected a number from 0 up.")
     if output is not None:
         check_map(output)
-    found = diff(a, b, exposure=exposure)
+    found = diff(a, b, exposure=exposure, assume=assume)
     facts = {
         "mean": found.mean,
         "p95": found.p95,

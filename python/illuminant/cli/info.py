@@ -78,8 +78,20 @@ def _print_image(facts: dict[str, Any]) -> None:
     if lanes:
         _line("wavelengths", f"{len(lanes)}, {lanes[0]:g} to {lanes[-1]:g} nm")
     for key, value in facts["settings"].items():
+        if key == "developed":
+            _print_developed(value)
+            continue
         if isinstance(value, list):
             value = {"samples": " to ", "size": "x"}.get(key, ",").join(map(str, value))
         _line(key.replace("_", " "), "no limit" if key == "depth" and value is None else value)
     if facts.get("remake"):
         typer.echo(f"\nMake it again with:\n  {facts['remake']}")
+
+
+def _print_developed(stages: Any) -> None:
+    """Say what an image was made into without rendering again."""
+    from illuminant.display.developing import described
+
+    said = [line for stage in stages if isinstance(stage, dict) for line in described(stage)]
+    for number, line in enumerate(said):
+        _line("" if number else "developed", line)

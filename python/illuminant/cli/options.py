@@ -9,15 +9,22 @@ import typer
 
 __all__ = [
     "Adaptive",
+    "Assume",
+    "Bits",
+    "DisplayName",
+    "DitherName",
     "Elements",
     "Exposure",
     "FormFactors",
+    "GamutName",
     "Gather",
     "Json",
     "LightSamples",
     "Patches",
     "SceneFile",
     "Solver",
+    "ToneName",
+    "Transfer",
 ]
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (TOML).", show_default=False)]
@@ -28,6 +35,72 @@ Exposure = Annotated[
         "--exposure",
         metavar="FACTOR",
         help="Display value of 1 cd/m²; without it the scene's white becomes 0.8.",
+        show_default=False,
+    ),
+]
+
+DisplayName = Annotated[
+    str | None,
+    typer.Option(
+        "--display",
+        metavar="NAME",
+        help="Display of a PNG: sRGB, 'Display P3', 'Rec.2020 PQ', ..., or a description .toml or .icc (sRGB).",
+        show_default=False,
+    ),
+]
+
+Transfer = Annotated[
+    str | None,
+    typer.Option(
+        "--transfer",
+        metavar="NAME",
+        help="Response in place of the display's own: 'gamma 2.4', sRGB, BT.1886, PQ, HLG, linear.",
+        show_default=False,
+    ),
+]
+
+ToneName = Annotated[
+    str,
+    typer.Option(
+        "--tone",
+        metavar="NAME",
+        help="Tone operator for high contrast: none, reinhard, filmic, filmic-hue (none).",
+        show_default=False,
+    ),
+]
+
+GamutName = Annotated[
+    str | None,
+    typer.Option(
+        "--gamut",
+        metavar="NAME",
+        help="What becomes of colours that the display cannot show: clamp, scale, constant-intensity, "
+        "constant-luminance, cook, oklab, oklab-adaptive, cam16, soft, scale-image (cook).",
+        show_default=False,
+    ),
+]
+
+DitherName = Annotated[
+    str,
+    typer.Option(
+        "--dither",
+        metavar="NAME",
+        help="none, random, ordered-2, ordered-4, bayer-8, blue-noise, floyd-steinberg, dot-diffusion, ... (none).",
+        show_default=False,
+    ),
+]
+
+Bits = Annotated[
+    int,
+    typer.Option("--bits", metavar="N", help="Bits of a channel of a PNG, 1 to 16 (8).", show_default=False),
+]
+
+Assume = Annotated[
+    str | None,
+    typer.Option(
+        "--assume",
+        metavar="DISPLAY",
+        help="Display (EXR: RGB system) of a file that does not say which its numbers are for.",
         show_default=False,
     ),
 ]

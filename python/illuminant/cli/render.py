@@ -10,18 +10,25 @@ import typer
 
 from illuminant.cli.options import (
     Adaptive,
+    Bits,
+    DisplayName,
+    DitherName,
     Elements,
     Exposure,
     FormFactors,
+    GamutName,
     Gather,
     Json,
     LightSamples,
     Patches,
     SceneFile,
     Solver,
+    ToneName,
+    Transfer,
 )
 
 if TYPE_CHECKING:
+    from illuminant.display.look import Look
     from illuminant.image import Image, Saved
     from illuminant.rendering import Job
 
@@ -253,8 +260,19 @@ def render(
     lamps: Annotated[bool, typer.Option("--lamps", help="A layer for the light of each lamp.")] = False,
     keep_spectra: Annotated[
         bool,
-        typer.Option("--keep-spectra", help="A channel for each wavelength, in the EXR."),
+        typer.Option(
+            "--keep-spectra",
+            help="A channel for each wavelength, in the EXR; with --lamps for each lamp too.",
+        ),
     ] = False,
+    develop_for: Annotated[
+        str | None,
+        typer.Option(
+            "--develop-for",
+            metavar="A,FL11",
+            help="Lamps that illuminant develop shall show this image under: fitted:N serves them too.",
+        ),
+    ] = None,
     half: Annotated[
         bool,
         typer.Option("--half", help="16-bit floats in the EXR; their largest is 65504."),
@@ -265,13 +283,15 @@ def render(
         typer.Option(
             "--rgb",
             metavar="SYSTEM",
-            help="RGB system of the file: sRGB, Rec.2020, 'Display P3', ... (sRGB; XYZ for EXR).",
+            help="RGB system of an EXR, for programs that know no XYZ: sRGB, 'ACES AP1', ... (XYZ).",
         ),
     ] = None,
-    bits: Annotated[
-        int,
-        typer.Option("--bits", metavar="8|16", help="Bits of a channel of a PNG (8).", show_default=False),
-    ] = 8,
+    display: DisplayName = None,
+    transfer: Transfer = None,
+    tone: ToneName = "none",
+    gamut: GamutName = None,
+    dither: DitherName = "none",
+    bits: Bits = 8,
     pixel: Annotated[
         str | None,
         typer.Option(
@@ -307,7 +327,11 @@ def render(
     if pixel is None:
         for path in paths:
             check_output(path)
-    _check_look(exposure, rgb, bits)
+    look = _look(exposure, display, transfer, tone, gamut, dither, bits, seed or 0)
+    if rgb is not None:
+        from illuminant import rgb_system
+
+        rgb_system.named(rgb)
     options: dict[str, Any] = {
         "technique": technique,
         "illumination": illumination,
@@ -321,6 +345,7 @@ def render(
         "layers": layers,
         "keep_spectra": keep_spectra or None,
         "lamps": lamps or None,
+        "develop_for": develop_for,
         "time": time,
         "error": error,
         "sampler": sampler,
@@ -353,8 +378,7 @@ def render(
         if pixel is not None:
             _print_path(job, pixel, sample or 0, json)
         else:
-            look = {"exposure": exposure, "rgb": rgb, "half": half, "bits": bits}
-            _render(job, paths, look, _again(scene, options), json)
+            _render(job, paths, {"look": look, "rgb": rgb, "half": half}, _again(scene, options), json)
 
 
 def _again(scene: Path, options: dict[str, Any]) -> str:
@@ -362,9 +386,8 @@ def _again(scene: Path, options: dict[str, Any]) -> str:
     import shlex
 
     names = ("technique", "illumination", "sampling", "size", "depth", "filter", "sampler", "seed", "error")
-    given = [
-        part for name in names if options[name] is not None for part in (f"--{name}", str(options[name]))
-    ]
+    words = {f"--{name}": options[name] for name in names} | {"--develop-for": options["develop_for"]}
+    given = [part for word, value in words.items() if value is not None for part in (word, str(value))]
     given += ["--caustics"] if options["caustics"] else []
     return shlex.join(["illuminant", "render", str(scene), *given])
 
@@ -419,18 +442,21 @@ def _save(image: Image, path: Path, *, half: bool, **look: Any) -> Saved:
         raise type(error)(f"{str(error).rstrip('.')}; the image is kept as {kept}.") from error
 
 
-def _check_look(exposure: float | None, rgb: str | None, bits: int) -> None:
-    """Refuse before the work what `Image.save` would refuse after it."""
-    from illuminant.errors import UsageError
+def _look(
+    exposure: float | None,
+    display: str | None,
+    transfer: str | None,
+    tone: str,
+    gamut: str | None,
+    dither: str,
+    bits: int,
+    seed: int,
+) -> Look:
+    """The look that the options ask for; what cannot be is refused before the work."""
+    from illuminant.display.gamut import DEFAULT
+    from illuminant.display.look import Look
 
-    if exposure is not None and not 0 < exposure < float("inf"):
-        raise UsageError(f"--exposure {exposure:g}: expected a positive number.")
-    if bits not in (8, 16):
-        raise UsageError(f"--bits {bits}: a PNG has 8 or 16 bits a channel.")
-    if rgb is not None:
-        from illuminant import rgb_system
-
-        rgb_system.named(rgb)
+    return Look(display or "sRGB", exposure, transfer, tone, gamut or DEFAULT, dither, bits, seed)
 
 
 class _Stop:
@@ -498,14 +524,14 @@ def _facts(job: Job, image: Image, saved: list[Saved], again: str) -> dict[str, 
         "dropped_samples": [{**item, "again": _follow(again, item)} for item in found["dropped_samples"]],
         "unit": image.unit,
         "exposure": shown.exposure if shown else None,
-        "clamped": shown.clamped if shown else None,
+        "outside_gamut": shown.outside if shown else None,
         "white": image.white(),
         "settings": image.settings,
     }
 
 
 def _say_exposure(saved: list[Saved], image: Image) -> None:
-    """Say which exposure a PNG was given, if nobody had chosen one, and how much of it was clamped."""
+    """Say which exposure a PNG was given, if nobody had chosen one, and how much of it lay outside the gamut."""
     from illuminant.cli.report import note
 
     shown = next((item for item in saved if item.exposure is not None), None)
@@ -516,9 +542,9 @@ def _say_exposure(saved: list[Saved], image: Image) -> None:
     elif shown.chosen and shown.exposure:
         white = f"{0.8 / shown.exposure:.4g} {image.unit}"
         note(f"White, {white}, is shown as 0.8; --exposure {shown.exposure:g} repeats it.")
-    if shown.clamped and shown.clamped >= 0.0005:
+    if shown.outside and shown.outside >= 0.0005:
         note(
-            f"{100 * shown.clamped:.1f} % of the pixels are outside the gamut or above white, and are clamped."
+            f"{100 * shown.outside:.1f} % of the pixels are outside the gamut or above white, and were moved."
         )
 
 

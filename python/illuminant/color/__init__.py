@@ -7,7 +7,7 @@
 | `chromaticity` | xyY, u′v′Y, projection onto the plane of sum 1 |
 | `uniform`, `differences` | L*a*b*, L*u*v*; ΔE 1976, 1994, 2000 and in L*u*v* |
 | `solids` | HSV, and HSL in three solids |
-| `axes` | YIQ, AC₁C₂ |
+| `axes` | YIQ, Y R−Y B−Y, AC₁C₂ |
 | `spectral`, `matching` | spectra to XYZ; matching with three lights |
 | `munsell` | Munsell notation (optional) |
 | `triples` | rules on shapes, types, `out=` and NaN that all of them keep |
@@ -26,7 +26,16 @@ Example:
 """
 
 from illuminant.color.adaptation import adapt, adaptation_matrix
-from illuminant.color.axes import ac1c2_to_xyz, monochrome, rgb_to_yiq, xyz_to_ac1c2, yiq_to_rgb
+from illuminant.color.axes import (
+    ac1c2_to_xyz,
+    monochrome,
+    rgb_to_yiq,
+    rgb_to_yvu,
+    xyz_to_ac1c2,
+    yiq_matrix,
+    yiq_to_rgb,
+    yvu_to_rgb,
+)
 from illuminant.color.chromaticity import chromaticity, uvy_to_xyz, xyy_to_xyz, xyz_to_uvy, xyz_to_xyy
 from illuminant.color.differences import delta_e_1976, delta_e_1994, delta_e_2000, delta_e_luv
 from illuminant.color.matching import matching_amounts, matching_functions, primaries_to_xyz
@@ -87,6 +96,7 @@ __all__ = [
     "rgb_to_rgb_matrix",
     "rgb_to_xyz",
     "rgb_to_yiq",
+    "rgb_to_yvu",
     "spectra_to_xyz",
     "spectral_weights",
     "system",
@@ -102,5 +112,7 @@ __all__ = [
     "xyz_to_rgb",
     "xyz_to_uvy",
     "xyz_to_xyy",
+    "yiq_matrix",
     "yiq_to_rgb",
+    "yvu_to_rgb",
 ]

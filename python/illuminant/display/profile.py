@@ -87,7 +87,7 @@ class Described(Protocol):
 
     @property
     def response(self) -> Any:
-        """Name or numbers of the response; only whether it is PQ or HLG counts here."""
+        """The response; only whether it names PQ or HLG counts here."""
 
     def decode(self, code: Any) -> Any:
         """Linear values (..., 3), 1 at white, of code values (..., 3) in [0, 1]."""
@@ -188,22 +188,21 @@ def _curve(code: Array, linear: Array) -> tuple[str, list[float]]:
 
     middle = float(linear[SAMPLES // 2])
     if 0.0 < middle < 1.0:
-        # A power law shows its exponent anywhere; digits beyond the sixth are rounding. Version 2 has 256ths.
-        found = math.log(middle) / math.log(float(code[SAMPLES // 2]))
-        nearest = round(found * 256) / 256
-        gamma = nearest if abs(found - nearest) < 1e-7 else round(found, 6)
+        # A power law shows its exponent anywhere; digits beyond the sixth are rounding.
+        gamma = round(math.log(middle) / math.log(float(code[SAMPLES // 2])), 6)
         if np.abs(linear - code**gamma).max() < 1e-6:
             return "gamma", [gamma]
     for name in ("sRGB", "Rec.709"):
-        if np.abs(linear - rgb_system.linear(np.repeat(code[:, None], 3, axis=1), name)[:, 0]).max() < 1e-6:
+        formula = rgb_system.linear(np.repeat(code[:, None], 3, axis=1), name)[:, 0]
+        if np.abs(linear - formula).max() < 1e-6:
             return name, []
     # A code above the display's white (PQ has them) shows white.
     return "table", np.maximum.accumulate(np.clip(linear, 0.0, 1.0)).tolist()
 
 
 def _code_points(display: Described, primaries: list[list[float]], white: list[float]) -> list[int] | None:
-    response = display.response
-    transfer = _TRANSFER.get(response.upper()) if isinstance(response, str) else None
+    response = str(getattr(display.response, "name", display.response)).upper()
+    transfer = next((code for name, code in _TRANSFER.items() if name in response), None)
 
     def same(a: Any, b: Any) -> bool:
         return all(math.isclose(x, y, abs_tol=1e-3) for x, y in zip(a, b, strict=True))

@@ -5,6 +5,8 @@
     chromaticity("xy")             a diagram with the spectral locus, lamps, materials and gamuts
     distributions(), coefficients()   highlights of the literature in polar plots, and their coefficients
     projection(primaries_nm)       how the diagram of three lights comes about, in their space
+    waveform(signal), vectorscope(signal)   a composite video signal as instruments show it
+    yiq_gamut()                    the RGB cube in Y I Q, with the colours that NTSC cannot carry
     save(figure, path)             a PNG or an SVG, the same bytes for the same figure
 
 The modules `observer` and `diagram` compute the numbers and know nothing of matplotlib; the others draw them.
@@ -22,12 +24,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from illuminant.plots.chroma_vectors import vectorscope
     from illuminant.plots.chromaticity_diagram import chromaticity
+    from illuminant.plots.composite_waveform import waveform
     from illuminant.plots.lobes import coefficients, distributions
     from illuminant.plots.matching import matching_functions
     from illuminant.plots.projection_space import projection
     from illuminant.plots.spectral_curves import curves
     from illuminant.plots.style import save
+    from illuminant.plots.yiq_cube import yiq_gamut
 
 __all__ = [
     "chromaticity",
@@ -37,6 +42,9 @@ __all__ = [
     "matching_functions",
     "projection",
     "save",
+    "vectorscope",
+    "waveform",
+    "yiq_gamut",
 ]
 
 # Where each name lives; no module bears the name of a function, which importing it would replace.
@@ -48,6 +56,9 @@ _HOME = {
     "matching_functions": "matching",
     "projection": "projection_space",
     "save": "style",
+    "vectorscope": "chroma_vectors",
+    "waveform": "composite_waveform",
+    "yiq_gamut": "yiq_cube",
 }
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from illuminant import rgb_system
-from illuminant.core import core
+from illuminant.display.look import Look, show
 
 if TYPE_CHECKING:
     import numpy as np
@@ -38,7 +38,7 @@ def brightest(xyz: NDArray[np.float64]) -> NDArray[np.uint8]:
     linear = finite @ np.asarray(rgb_system.named("sRGB")["from_xyz"]).T
     largest = linear.max(axis=-1, keepdims=True)
     scaled = np.where(largest > 0, finite / np.where(largest > 0, largest, 1.0), 0.0)
-    return np.asarray(core().develop(scaled, "sRGB", 1.0, 8)[0])
+    return np.asarray(show(scaled, Look(gamut="clamp")).picture.codes, np.uint8)
 
 
 def spectrum(observer: Functions, wavelengths_nm: NDArray[np.float64]) -> NDArray[np.uint8]:
@@ -56,4 +56,4 @@ def spectrum(observer: Functions, wavelengths_nm: NDArray[np.float64]) -> NDArra
 
     xyz = observer.at(wavelengths_nm)[np.newaxis]
     largest = (xyz @ np.asarray(rgb_system.named("sRGB")["from_xyz"]).T).max()
-    return np.asarray(core().develop(xyz / max(largest, 1e-12), "sRGB", 1.0, 8)[0][0])
+    return np.asarray(show(xyz / max(largest, 1e-12), Look(gamut="clamp")).picture.codes[0], np.uint8)

@@ -96,11 +96,11 @@ def _own_look(reflectance: Spectrum) -> dict[str, Any]:
     """The line of a reflectance in its own colour under D65, as sRGB can show it, with a dark edge."""
     from matplotlib.patheffects import Normal, Stroke
 
-    from illuminant.core import core
+    from illuminant.display.look import Look, show
 
     eye, light = observers.named(), load("D65")
     xyz = eye.sample(reflectance, light) / eye.sample(light)[1]
-    code = core().develop(xyz[None, None], "sRGB", 1.0, 8)[0][0, 0]
+    code = show(xyz[None, None], Look(gamut="clamp")).picture.codes[0, 0]
     return {
         "color": tuple(code / 255.0),
         "linewidth": 1.8,

@@ -8,11 +8,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from illuminant.cli.options import Exposure, Gather, Json
+from illuminant.cli.words import numbers
 
 if TYPE_CHECKING:
     from illuminant.radiosity import Solution
 
 __all__ = ["show"]
+
+VECTOR = "three numbers, such as 1,1.6,3"
 
 
 def show(
@@ -89,7 +92,9 @@ def show(
     found = radiosity.Solution.load(solution)
     report: dict[str, Any] = facts(found) | {"file": solution, "outputs": [str(path) for path in paths]}
     camera = {
-        key: _vector(f"--{key}", text) for key, text in (("eye", eye), ("target", target)) if text is not None
+        key: numbers(text, f"--{key}", VECTOR, count=3)
+        for key, text in (("eye", eye), ("target", target))
+        if text is not None
     }
     pictures = [path for path, kind in kinds.items() if kind in (".png", ".exr")]
     if pictures or luminance is not None:
@@ -119,18 +124,6 @@ def show(
             )
 
 
-def _vector(option: str, text: str) -> list[float]:
-    from illuminant.errors import UsageError
-
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        values = []
-    if len(values) != 3:
-        raise UsageError(f"{option} {text}: expected three numbers, such as 1,1.6,3.")
-    return values
-
-
 def _grid(text: str) -> list[list[float]]:
     """Points in the middle of equal parts of a rectangle."""
     import re
@@ -143,7 +136,7 @@ def _grid(text: str) -> list[list[float]]:
         raise UsageError(
             f"--grid {text}: expected two corners and a number of points, such as 0,0.8,0:4,0.8,3:16x12."
         )
-    low, high = (_vector("--grid", part) for part in parts[:2])
+    low, high = (numbers(part, "--grid", VECTOR, count=3) for part in parts[:2])
     # The axis along which the corners agree is the one that the grid does not spread over.
     flat = min(range(3), key=lambda axis: abs(high[axis] - low[axis]))
     first, second = (axis for axis in range(3) if axis != flat)

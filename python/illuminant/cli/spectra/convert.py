@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from illuminant.cli.spectra.argument import Column, FileQuantity
+from illuminant.cli.words import numbers
 
 if TYPE_CHECKING:
     from illuminant.spectra import MaterialFile, Quantity, Spectrum
@@ -165,13 +166,12 @@ def _read(word: str, quantity: str | None, column: str | None, scaled: bool) -> 
 def _from_rgb(text: str, role: str | None, system: str) -> tuple[Spectrum, list[str]]:
     """A smooth spectrum of a colour, and how well it gives the colour back."""
     from illuminant import rgb_system, spectra
-    from illuminant.cli.spectra.argument import numbers
     from illuminant.errors import DataError, UsageError
 
     if role not in ("albedo", "emission"):
         found = f"--role {role}" if role is not None else "--rgb without --role"
         raise UsageError(f"{found}: expected --role albedo for a surface, or --role emission for light.")
-    rgb = numbers(text, "--rgb", "three numbers, such as 0.8,0.2,0.1")
+    rgb = numbers(text, "--rgb", "three numbers, such as 0.8,0.2,0.1", count=3)
     name = str(rgb_system.named(system)["name"])
     make = spectra.rgb_albedo if role == "albedo" else spectra.rgb_emission
     try:

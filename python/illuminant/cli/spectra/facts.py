@@ -110,6 +110,7 @@ def _of_reflectance(reflectance: Spectrum) -> dict[str, Any]:
     import numpy as np
 
     from illuminant.core import core
+    from illuminant.display.look import Look, show
     from illuminant.errors import DataError
     from illuminant.spectra import load
 
@@ -119,12 +120,12 @@ def _of_reflectance(reflectance: Spectrum) -> dict[str, Any]:
     except DataError:  # not known where it is needed
         return {}
     white = light.xyz(range_nm=RANGE_NM)
-    code, outside = core().develop(xyz[np.newaxis, np.newaxis], "sRGB", 1.0, 8)
+    shown = show(xyz[np.newaxis, np.newaxis], Look(gamut="clamp"))
     return {
         "observer": OBSERVER,
         "light": "D65",
         "xyz": xyz.tolist(),
         "lab": core().xyz_to_lab(xyz, white / white[1]).tolist(),
-        "srgb": "#" + "".join(f"{value:02x}" for value in code[0, 0]),
-        "clipped": bool(outside > 0),
+        "srgb": "#" + "".join(f"{value:02x}" for value in shown.picture.codes[0, 0]),
+        "clipped": shown.outside > 0,
     }

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from illuminant.cli.spectra.argument import Column, FileQuantity
+from illuminant.cli.words import numbers
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -117,7 +118,7 @@ def plot(
       illuminant spectra plot D65 FL11 --chromaticity xy --gamut sRGB
     """
     from illuminant.cli.report import note
-    from illuminant.cli.spectra.argument import check_file_options, load, numbers, range_of
+    from illuminant.cli.spectra.argument import check_file_options, load, range_of
     from illuminant.errors import UsageError
     from illuminant.plots import style
 
@@ -149,7 +150,7 @@ def plot(
         from illuminant.plots import projection as in_space
 
         wanted = "three wavelengths in nm, such as 445,535,630, with --projection"
-        lights = numbers(chromaticity, "--chromaticity", wanted)
+        lights = numbers(chromaticity, "--chromaticity", wanted, count=3)
         figure = in_space(lights, observer=observer or "1931", **look)
     elif chromaticity is not None:
         figure = _diagram(
@@ -163,7 +164,7 @@ def plot(
         from illuminant.plots import matching_functions
 
         primaries = (
-            numbers(matching, "--matching", "three wavelengths in nm, such as 445,535,630")
+            numbers(matching, "--matching", "three wavelengths in nm, such as 445,535,630", count=3)
             if matching
             else None
         )
@@ -228,12 +229,10 @@ WIDTH_INCHES = 8.0
 
 def _pixels(size: str) -> tuple[int, int]:
     """Width and height as `1600x1000`."""
-    import re
-
     from illuminant.errors import UsageError
+    from illuminant.settings import size_of
 
-    found = re.fullmatch(r"(\d+)x(\d+)", size)
-    sides = [int(side) for side in found.groups()] if found else [0, 0]
+    sides = size_of(size)
     if not (min(sides) >= 200 and max(sides) <= min(10_000, 3 * min(sides))):
         raise UsageError(
             f"--size {size}: expected width and height from 200 to 10000, at most three to one, such as 1600x1000."
