@@ -32,7 +32,7 @@ PACKAGES = (
 )
 
 # What of a look is said in words; the rest is in --json.
-_LOOK = ("display", "tone", "gamut", "dither", "bits", "pipeline", "reversible")
+_LOOK = ("display", "tone", "gamut", "dither", "bits", "pipeline")
 
 
 def machine_facts() -> dict[str, Any]:
