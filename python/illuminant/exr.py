@@ -26,11 +26,13 @@ JCGT 10(3), 2021.
 from __future__ import annotations
 
 import json
+import math
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from illuminant import machine
 from illuminant.errors import ImageError, UsageError
 
 if TYPE_CHECKING:
@@ -46,6 +48,9 @@ LARGEST_HALF = 65504.0
 
 LARGEST = 1 << 31
 """Values (pixels times channels) of the largest file that is read."""
+
+BYTES_A_VALUE = 12
+"""Memory that a value takes while a file is read: 4 as it is in the file, and 8 in an image."""
 
 MAGIC = b"\x76\x2f\x31\x01"
 """The first four bytes of every EXR file."""
@@ -218,10 +223,14 @@ def read(path: str | Path) -> Contents:
         path: the file.
 
     Returns:
-        Its contents; a file with luminance only is given three equal channels.
+        Its contents; a file with luminance only is given three equal channels. What the data window leaves of the
+        display window is 0, and what lies outside the display window is left out. An exposure or a luminance of white
+        that is no positive number is left out as well.
 
     Raises:
-        ImageError: the file is not there, is no EXR, or has no colour.
+        ImageError: the file is not there, is no EXR, has no colour or has it as luminance and chroma, or states its
+            chromaticities, settings or lanes by what cannot be that.
+        MachineError: it does not fit into the memory that is free.
     """
     import numpy as np
     import OpenImageIO as oiio
@@ -233,41 +242,45 @@ def read(path: str | Path) -> Contents:
         raise ImageError(f"{path} cannot be read: {reason}.")
     try:
         spec = file.spec()
-        values = spec.width * spec.height * spec.nchannels
+        size = max(spec.width * spec.height, spec.full_width * spec.full_height)
+        values = size * spec.nchannels
         if not 0 < values <= LARGEST:
             raise ImageError(f"{path} has {values:,} values: 1 to {LARGEST:,} are read.")
+        names, attributes = _described(spec, path)
+        colour = _colour(names, path)
+        machine.check_file(path, BYTES_A_VALUE * values)
         pixels = file.read_image(oiio.FLOAT)
         if pixels is None:
             raise ImageError(f"{path} cannot be read: {' '.join(file.geterror().split()).rstrip('.')}.")
     finally:
         file.close()
-    pixels = np.asarray(pixels).reshape(spec.height, spec.width, spec.nchannels)
-    index = {name: i for i, name in enumerate(spec.channelnames)}
-    colour = next(
-        (c for c in (("R", "G", "B"), ("X", "Y", "Z"), ("Y", "Y", "Y")) if set(c) <= set(index)), None
-    )
-    if colour is None:
-        raise ImageError(f"{path} has no colour: its channels are {', '.join(spec.channelnames)}.")
-    attributes = {item.name: item.value for item in spec.extra_attribs}
+    pixels = _in_display_window(np.asarray(pixels).reshape(spec.height, spec.width, spec.nchannels), spec)
+    index = {name: i for i, name in enumerate(names)}
     contents = Contents(
         rgb=pixels[..., [index[name] for name in colour]].astype(np.float64),
-        chromaticities=XYZ if colour[0] == "X" else _floats(attributes.get("chromaticities")),
+        chromaticities=XYZ if colour[0] == "X" else _chromaticities(attributes.get("chromaticities"), path),
         half=spec.format == oiio.HALF,
     )
-    _read_layers(contents, pixels, [name for name in spec.channelnames if name not in (*colour, "A")], index)
+    _read_layers(contents, pixels, [name for name in names if name not in (*colour, "A")], index)
     for key, value in attributes.items():
         if key == "whiteLuminance" or (key.startswith("illuminant:") and key != "illuminant:toXYZ"):
             contents.attributes[key.removeprefix("illuminant:")] = value
+    for key in ("exposure", "whiteLuminance"):
+        if key in contents.attributes and not _positive(contents.attributes[key]):
+            del contents.attributes[key]
     if isinstance(contents.attributes.get("settings"), str):
         try:
             contents.attributes["settings"] = json.loads(contents.attributes["settings"])
-        except ValueError:
+        except (ValueError, RecursionError):
             raise ImageError(
                 f"{path} cannot be read: its attribute illuminant:settings is damaged."
             ) from None
     numbers = attributes.get("illuminant:toXYZ")
     if numbers is not None:
-        matrix = np.asarray(numbers, np.float64).ravel()
+        try:
+            matrix = np.asarray(numbers, np.float64).ravel()
+        except (ValueError, TypeError):
+            raise ImageError(f"{path} cannot be read: illuminant:toXYZ holds no numbers.") from None
         lanes = 0 if contents.wavelengths_nm is None else len(contents.wavelengths_nm)
         if matrix.size != 3 * lanes:
             raise ImageError(
@@ -277,8 +290,72 @@ def read(path: str | Path) -> Contents:
     return contents
 
 
-def _floats(values: Any) -> tuple[float, ...] | None:
-    return None if values is None else tuple(float(value) for value in values)
+def _described(spec: Any, path: str | Path) -> tuple[list[str], dict[str, Any]]:
+    """Names of the channels, and the attributes; one whose text is no UTF-8 is left out."""
+    try:
+        names = list(spec.channelnames)
+    except UnicodeDecodeError:
+        raise ImageError(f"{path} cannot be read: the name of a channel is no text.") from None
+    attributes = {}
+    for item in spec.extra_attribs:
+        try:
+            attributes[item.name] = item.value
+        except UnicodeDecodeError:
+            continue
+    return names, attributes
+
+
+def _colour(names: list[str], path: str | Path) -> tuple[str, str, str]:
+    """Which channels are the colour."""
+    if chroma := [name for name in ("Y", "RY", "BY") if name in names and {"RY", "BY"} & set(names)]:
+        raise ImageError(
+            f"{path} cannot be read: its channels {', '.join(chroma)} are luminance and chroma, and R, G, B or X, Y, Z "
+            "are read."
+        )
+    known = (("R", "G", "B"), ("X", "Y", "Z"), ("Y", "Y", "Y"))
+    colour = next((one for one in known if set(one) <= set(names)), None)
+    if colour is None:
+        raise ImageError(f"{path} has no colour: its channels are {', '.join(names)}.")
+    return colour
+
+
+def _in_display_window(pixels: Array, spec: Any) -> Array:
+    """What the display window shows: 0 where the file has no data."""
+    import numpy as np
+
+    x, y = spec.x - spec.full_x, spec.y - spec.full_y
+    width, height = spec.full_width, spec.full_height
+    if (x, y, spec.width, spec.height) == (0, 0, width, height) or width < 1 or height < 1:
+        return pixels
+    whole = np.zeros((height, width, pixels.shape[2]), pixels.dtype)
+    left, top = max(x, 0), max(y, 0)
+    right, bottom = min(x + spec.width, width), min(y + spec.height, height)
+    if left < right and top < bottom:
+        whole[top:bottom, left:right] = pixels[top - y : bottom - y, left - x : right - x]
+    return whole
+
+
+def _positive(value: Any) -> bool:
+    """Whether this is a positive number, and finite."""
+    return isinstance(value, (int, float)) and 0 < value < math.inf
+
+
+def _chromaticities(values: Any, path: str | Path) -> tuple[float, ...] | None:
+    """x and y of red, green, blue and white, checked; None when they are not stated."""
+    if values is None:
+        return None
+    try:
+        found = tuple(float(value) for value in values)
+    except (ValueError, TypeError):
+        found = ()
+    if len(found) != 8 or not all(abs(value) <= 10.0 for value in found):
+        raise ImageError(f"{path} cannot be read: its chromaticities are not x and y of four colours.")
+    xr, yr, xg, yg, xb, yb, _, white = found
+    if not white > 1e-6:
+        raise ImageError(f"{path} cannot be read: its white has a y of {white:g}.")
+    if abs((xg - xr) * (yb - yr) - (xb - xr) * (yg - yr)) < 1e-6:
+        raise ImageError(f"{path} cannot be read: its chromaticities lie on one line.")
+    return found
 
 
 def _read_layers(contents: Contents, pixels: Array, names: list[str], index: dict[str, int]) -> None:

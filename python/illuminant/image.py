@@ -52,6 +52,9 @@ PERCENTILE = 98.0
 
 EXTENSIONS = (".exr", ".png")
 
+BYTES_A_PIXEL = 80
+"""Memory that a picture takes while it becomes an image: codes, code values, light and XYZ, the last three float64."""
+
 
 class Saved(NamedTuple):
     """What `Image.save` did.
@@ -152,22 +155,26 @@ class Image:
         import numpy as np
 
         luminance = self.xyz[..., 1]
+        finite = np.isfinite(luminance)
         emission = self.layers.get("emission")
         if emission is not None:
-            lit = luminance[emission[..., 0] == 0]
+            lit = luminance[finite & (emission[..., 0] == 0)]
             if lit.size and lit.max() > 0:
-                luminance = lit
-        finite = luminance[np.isfinite(luminance)]
-        return float(np.percentile(finite, PERCENTILE)) if finite.size else 0.0
+                return float(np.percentile(lit, PERCENTILE))
+        return float(np.percentile(luminance[finite], PERCENTILE)) if finite.any() else 0.0
 
     def auto_exposure(self) -> float:
         """The exposure that maps the scene's white to 0.8 of the display's, to six digits; 1 for a black image.
 
-        It is rounded so that the number printed repeats the picture exactly.
+        It is rounded so that the number printed repeats the picture exactly. Pixels that are infinite or no numbers
+        have no say.
         """
+        import numpy as np
+
         white = self.white()
         if white <= 0:
-            white = float(self.xyz[..., 1].max(initial=0.0))
+            luminance = self.xyz[..., 1]
+            white = float(luminance.max(initial=0.0, where=np.isfinite(luminance)))
         if not white > 0 or not math.isfinite(WHITE / white):
             return 1.0
         return float(f"{WHITE / white:.6g}")
@@ -237,6 +244,8 @@ class Image:
 
         look = look or Look()
         used = exposure or look.exposure or self.exposure or self.auto_exposure()
+        if not (used > 0 and math.isfinite(used)):
+            raise UsageError(f"An exposure is a positive number, not {used}.")
         text = {
             "Software": f"illuminant {_version()}",
             "Description": f"display white is {1 / used:.6g} {self.unit} (exposure {used:.6g})",
@@ -298,6 +307,7 @@ class Image:
         Raises:
             ImageError: the file is not there, damaged, no image of these kinds, or does not say how its numbers are
                 meant.
+            MachineError: the image does not fit into the memory that is free.
 
         Example:
             >>> Image.open("room.exr").xyz.shape       # doctest: +SKIP
@@ -311,7 +321,7 @@ class Image:
         if path.suffix.lower() in (".png", ".rle"):
             from illuminant.display.picture import Picture
 
-            picture = Picture.open(path, assume)
+            picture = Picture.open(path, assume, bytes_a_pixel=BYTES_A_PIXEL)
             xyz = picture.xyz() / picture.display.shown_white
             return cls(xyz, unit=RELATIVE, settings=picture.settings, exposure=1.0)
         if path.suffix.lower() == ".exr":
@@ -333,11 +343,14 @@ class Image:
                     f"{path} does not say which primaries its numbers are for: name their RGB system (--assume sRGB, "
                     "assume=...)."
                 )
-            xyz = xyz @ displays.named(assume).to_xyz_matrix.T
-        elif not np.allclose(contents.chromaticities, exr.XYZ, atol=1e-6):
-            xyz = xyz @ _to_xyz(contents.chromaticities, path).T
+            matrix: Array = displays.named(assume).to_xyz_matrix
+        else:
+            matrix = _to_xyz(contents.chromaticities)
+        if contents.chromaticities is None or not np.allclose(contents.chromaticities, exr.XYZ, atol=1e-6):
+            with np.errstate(invalid="ignore", over="ignore"):  # an infinite pixel becomes no number
+                xyz = xyz @ matrix.T
         found = contents.attributes
-        white = float(found.get("whiteLuminance", 0.0))
+        white = found.get("whiteLuminance", 0.0)
         unit = found.get("unit") or (UNIT if white > 0 else RELATIVE)
         settings = found.get("settings")
         basis = None
@@ -348,6 +361,10 @@ class Image:
                 basis = KeptSpectra.from_json(found["basis"])
             except ImageError as error:
                 raise ImageError(f"{path} cannot be read: {error}.") from None
+            except RecursionError:
+                raise ImageError(
+                    f"{path} cannot be read: its attribute illuminant:basis is damaged."
+                ) from None
             if len(basis.wavelengths_nm) != len(contents.wavelengths_nm):
                 raise ImageError(
                     f"{path} cannot be read: it has {len(contents.wavelengths_nm)} lanes, and illuminant:basis has "
@@ -403,7 +420,7 @@ def _version() -> str:
     return illuminant.__version__
 
 
-def _to_xyz(chromaticities: tuple[float, ...], path: Path) -> Array:
+def _to_xyz(chromaticities: tuple[float, ...]) -> Array:
     """Matrix from an RGB system, stated by x and y of its primaries and white, to XYZ with Y = 1 for (1, 1, 1)."""
     import numpy as np
 
@@ -411,8 +428,4 @@ def _to_xyz(chromaticities: tuple[float, ...], path: Path) -> Array:
     # Columns X, Y, Z of each primary with X + Y + Z = 1: a primary may have y = 0, as those of XYZ do.
     primaries = np.stack([xy[:3, 0], xy[:3, 1], 1.0 - xy[:3].sum(axis=1)])
     white = np.array([xy[3, 0], xy[3, 1], 1.0 - xy[3].sum()])
-    try:
-        scale = np.linalg.solve(primaries, white / white[1])
-    except np.linalg.LinAlgError as error:
-        raise ImageError(f"{path} cannot be read: its chromaticities lie on one line.") from error
-    return np.asarray(primaries * scale)
+    return np.asarray(primaries * np.linalg.solve(primaries, white / white[1]))

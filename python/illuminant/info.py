@@ -8,6 +8,7 @@ Example:
 
 from __future__ import annotations
 
+import math
 import platform
 import sys
 from pathlib import Path
@@ -29,6 +30,9 @@ PACKAGES = (
     ("flip_evaluator", "flip-evaluator", "FLIP in illuminant diff", False),
     ("matplotlib", "matplotlib", "plots", False),
 )
+
+# What of a look is said in words; the rest is in --json.
+_LOOK = ("display", "tone", "gamut", "dither", "bits", "pipeline")
 
 
 def machine_facts() -> dict[str, Any]:
@@ -87,11 +91,14 @@ def _package(module: str, package: str, use: str) -> dict[str, Any]:
 def image_facts(path: Path) -> dict[str, Any]:
     """What an image file says of itself, and the command that makes it again.
 
+    What a file says in another form than illuminant's own is left out.
+
     Args:
-        path: an EXR or PNG.
+        path: an EXR, a PNG, or a run-length encoded image.
 
     Raises:
         ImageError: it cannot be read.
+        MachineError: an EXR does not fit into the memory that is free.
     """
     if path.is_dir():
         raise ImageError(f"{path} cannot be read: it is a folder.")
@@ -99,8 +106,10 @@ def image_facts(path: Path) -> dict[str, Any]:
         raise ImageError(f"{path} cannot be read: there is no such file.")
     if path.suffix.lower() == ".png":
         return _png_facts(path)
+    if path.suffix.lower() == ".rle":
+        return _run_length_facts(path)
     if path.suffix.lower() != ".exr":
-        raise ImageError(f"{path} cannot be read: only .exr and .png are.")
+        raise ImageError(f"{path} cannot be read: only .exr, .png and .rle are.")
     return _exr_facts(path)
 
 
@@ -114,15 +123,87 @@ def _png_facts(path: Path) -> dict[str, Any]:
         "size": [header.width, header.height],
         "format": f"PNG, {header.bits} bits a channel, {meant}",
     }
-    if header.text.get("Exposure"):
-        exposure = float(header.text["Exposure"])
+    try:
+        exposure = float(header.text.get("Exposure", "0"))
+    except ValueError:
+        exposure = 0.0
+    if 0 < exposure < math.inf and 1 / exposure < math.inf:
         unit = header.text.get("Unit", "")
         facts["unit"] = f"1 is {1 / exposure:.6g} {unit}"
         facts["exposure"] = exposure
-    facts["settings"] = header.settings
+    look = {key: value for key, value in header.look.items() if isinstance(value, (str, int, float, bool))}
+    shown = [f"{key} {value}" for key, value in look.items() if key in _LOOK]
+    if shown:
+        facts["format"] += f"; {', '.join(shown)}"
+    settings = _settings(header.settings)
+    facts["settings"] = settings
     facts["look"] = header.look
-    facts["remake"] = remake(header.settings, path, facts.get("exposure"), header.look)
+    facts["remake"] = remake(settings, path, facts.get("exposure"), look)
     return facts
+
+
+def _run_length_facts(path: Path) -> dict[str, Any]:
+    from illuminant.display import run_length
+    from illuminant.display.picture import Picture
+
+    picture = Picture.open(path)
+    display = picture.display
+    packed = run_length.compression(path.read_bytes(), str(path))
+    matte = "" if picture.matte is None else " and a matte"
+    light = "linear" if display.gamma in (None, 1.0) else f"γ = {display.gamma:g}"
+    primaries = ", ".join(f"({x:g}, {y:g})" for x, y in display.primaries)
+    white = f"({display.white[0]:g}, {display.white[1]:g})"
+    facts: dict[str, Any] = {
+        "file": str(path),
+        "size": [picture.width, picture.height],
+        "format": f"run lengths, 8 bits a channel{matte}, {light}, primaries {primaries}, white {white}; "
+        f"{packed.stored:,} bytes for {packed.unpacked:,}, {packed.ratio:.3g} to 1",
+        "display": display.to_dict(),
+        "compression": {
+            "unpacked": packed.unpacked,
+            "stored": packed.stored,
+            "records": packed.records,
+            "ratio": packed.ratio,
+        },
+        "settings": {},
+        "remake": None,
+    }
+    return facts
+
+
+def _settings(found: dict[str, Any]) -> dict[str, Any]:
+    """Settings of a render, without those of another form: other programs have a text of that name too."""
+    kept = dict(found)
+    if "size" in kept and not (_numbers(kept["size"]) and len(kept["size"]) == 2):
+        del kept["size"]
+    samples = kept.get("samples")
+    if samples is not None and not (_number(samples) or (_numbers(samples) and samples)):
+        del kept["samples"]
+    if "scene" in kept and not isinstance(kept["scene"], str):
+        del kept["scene"]
+    if "developed" in kept:
+        stages = kept["developed"] if isinstance(kept["developed"], list) else []
+        kept["developed"] = [stage for stage in stages if _describable(stage)]
+    return kept
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _numbers(value: Any) -> bool:
+    return isinstance(value, (list, tuple)) and all(_number(one) for one in value)
+
+
+def _describable(stage: Any) -> bool:
+    """Whether a stage of development can be said in words."""
+    from illuminant.display.developing import described
+
+    try:
+        described(stage)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
+        return False
+    return isinstance(stage, dict)
 
 
 def _exr_facts(path: Path) -> dict[str, Any]:
@@ -139,7 +220,7 @@ def _exr_facts(path: Path) -> dict[str, Any]:
         else found.get("rgbSystem", "RGB, see chromaticities" if stated else "RGB of unknown primaries")
     )
     settings = found.get("settings")
-    settings = settings if isinstance(settings, dict) else {}
+    settings = _settings(settings) if isinstance(settings, dict) else {}
     facts: dict[str, Any] = {
         "file": str(path),
         "size": [width, height],

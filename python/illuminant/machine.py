@@ -11,7 +11,9 @@ import os
 import sys
 from pathlib import Path
 
-__all__ = ["cores", "memory", "memory_available", "peak_memory", "size"]
+from illuminant.errors import MachineError
+
+__all__ = ["check_file", "cores", "memory", "memory_available", "peak_memory", "size"]
 
 
 def cores() -> int:
@@ -74,6 +76,21 @@ def peak_memory() -> int:
 
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak if sys.platform == "darwin" else peak * 1024
+
+
+def check_file(path: str | os.PathLike[str], needed: int) -> None:
+    """Refuse a file whose contents do not fit into the memory that is free.
+
+    Args:
+        path: of the file.
+        needed: bytes that its contents take.
+
+    Raises:
+        MachineError: one sentence with both amounts.
+    """
+    free = memory_available()
+    if free is not None and needed > free:
+        raise MachineError(f"{path} needs about {size(needed)} of memory, and {size(free)} are free.")
 
 
 def size(count: float) -> str:

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from illuminant import machine
 from illuminant.core import core
 from illuminant.display import displays
 from illuminant.display.displays import Display
@@ -41,7 +42,7 @@ _CICP = {
     "XYZ": (10, 8, 0, 1),
 }
 # What other programs write: for the curves of cameras a display answers by BT.1886.
-_OTHER_CICP = {
+_OTHER_CICP: dict[tuple[int, ...], str] = {
     (1, 13): "sRGB",
     (1, 1): "Rec.709",
     (1, 6): "Rec.709",
@@ -54,6 +55,24 @@ LARGEST = 1 << 28
 
 LARGEST_PROFILE = 1 << 24
 """Bytes of the largest ICC profile that is read from a PNG."""
+
+LARGEST_TEXT = 1 << 24
+"""Bytes of the longest text that is read from a PNG."""
+
+BYTES_A_PIXEL = 24
+"""Memory that a pixel takes while it is decoded: four samples of 16 bits, their copy, and the rounding to its bits."""
+
+# Samples a pixel and possible bits a sample, by colour type.
+_COLOUR_TYPES = {
+    0: (1, (1, 2, 4, 8, 16)),
+    2: (3, (8, 16)),
+    3: (1, (1, 2, 4, 8)),
+    4: (2, (8, 16)),
+    6: (4, (8, 16)),
+}
+# First column, first row, and steps between columns and rows of the passes of an interlaced image (Adam7).
+_PASSES = ((0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2))
+_PIECE = 1 << 20
 
 
 @dataclass(frozen=True)
@@ -98,7 +117,8 @@ def encode(codes: Codes, bits: int, display: Display, text: dict[str, str]) -> b
         codes: (h, w, 3), uint8 or uint16, from 0 to 2^bits − 1.
         bits: 1 to 16 a channel; other than 8 and 16 are spread over these, and stated by `sBIT`.
         display: whose code values they are.
-        text: keyword and value of each text chunk.
+        text: keyword and value of each text chunk. One that a PNG cannot hold (a keyword that is not 1 to 79 printable
+            letters of Latin-1, a value with a zero) is left out, as is `Display`, which is always that of `display`.
 
     Raises:
         UsageError: a primary of the display has a negative y or x, which no chunk can state.
@@ -135,9 +155,19 @@ def encode(codes: Codes, bits: int, display: Display, text: dict[str, str]) -> b
         srgb=srgb,
         icc=icc,
         significant_bits=None if bits == depth else bits,
-        text=[*text.items(), ("Display", json.dumps(display.to_dict()))],
+        text=[
+            *((key, value) for key, value in text.items() if key != "Display" and _writable(key, value)),
+            ("Display", json.dumps(display.to_dict())),
+        ],
     )
     return bytes(content)
+
+
+def _writable(keyword: str, value: str) -> bool:
+    """Whether a PNG can hold this text."""
+    printable = all(" " <= letter <= "~" or "\xa1" <= letter <= "\xff" for letter in keyword)
+    spaced = keyword == keyword.strip(" ") and "  " not in keyword
+    return 0 < len(keyword) <= 79 and printable and spaced and "\0" not in value
 
 
 def _same(one: Display, other: Display) -> bool:
@@ -174,10 +204,10 @@ def _text(kind: bytes, data: bytes) -> tuple[str, str]:
     if kind == b"tEXt":
         return name, rest.decode("latin-1")
     if kind == b"zTXt":
-        return name, zlib.decompress(rest[1:]).decode("latin-1")
+        return name, _inflated(rest[1:], LARGEST_TEXT, f"text {name!r}").decode("latin-1")
     compressed = rest[:1] == b"\1"
     body = rest[2:].split(b"\0", 2)[2]
-    return name, (zlib.decompress(body) if compressed else body).decode("utf-8")
+    return name, (_inflated(body, LARGEST_TEXT, f"text {name!r}") if compressed else body).decode("utf-8")
 
 
 def read_header(path: str | os.PathLike[str]) -> Header:
@@ -186,10 +216,17 @@ def read_header(path: str | os.PathLike[str]) -> Header:
     Raises:
         ImageError: the file is not there or is no whole PNG.
     """
+    return _header(_content(path), path)
+
+
+def _content(path: str | os.PathLike[str]) -> bytes:
     try:
-        content = Path(path).read_bytes()
+        return Path(path).read_bytes()
     except OSError as error:
         raise ImageError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
+
+
+def _header(content: bytes, path: str | os.PathLike[str]) -> Header:
     width = height = depth = bits = 0
     found: dict[bytes, bytes] = {}
     text: dict[str, str] = {}
@@ -217,12 +254,13 @@ def _stated(text: dict[str, str], found: dict[bytes, bytes]) -> Display | None:
     if "Display" in text:
         try:
             return displays.described(json.loads(text["Display"]), "its text `Display`")
-        except (DataError, ValueError, RecursionError, AttributeError, TypeError):
+        except (DataError, ValueError, RecursionError, OverflowError, AttributeError, TypeError):
             pass  # another program's text of that name; the chunks say it too
     if b"cICP" in found:
-        code = (found[b"cICP"][0], found[b"cICP"][1])
+        code, rest = tuple(found[b"cICP"][:2]), found[b"cICP"][2:]
         name = next((name for name, known in _CICP.items() if known[:2] == code), _OTHER_CICP.get(code))
-        if name is not None:
+        # A PNG holds RGB of full range; what says otherwise is mistaken, and the next chunk is asked.
+        if name is not None and rest == b"\0\1":
             return displays.named(name)
     if b"iCCP" in found:
         from illuminant.display import profile
@@ -230,7 +268,8 @@ def _stated(text: dict[str, str], found: dict[bytes, bytes]) -> Display | None:
         _, _, rest = found[b"iCCP"].partition(b"\0")
         try:
             return displays.of_profile(
-                profile.decode(_inflated(rest[1:]), "its ICC profile"), "its ICC profile"
+                profile.decode(_inflated(rest[1:], LARGEST_PROFILE, "ICC profile"), "its ICC profile"),
+                "its ICC profile",
             )
         except (DataError, UsageError):
             pass
@@ -247,28 +286,94 @@ def _stated(text: dict[str, str], found: dict[bytes, bytes]) -> Display | None:
     return None
 
 
-def _inflated(data: bytes) -> bytes:
-    """Decompressed data of at most LARGEST_PROFILE bytes."""
-    content = zlib.decompressobj().decompress(data, LARGEST_PROFILE + 1)
-    if len(content) > LARGEST_PROFILE:
-        raise ValueError("its ICC profile is too large")
+def _inflated(data: bytes, largest: int, what: str) -> bytes:
+    """Decompressed data of at most so many bytes."""
+    content = zlib.decompressobj().decompress(data, largest + 1)
+    if len(content) > largest:
+        raise ValueError(f"its {what} is larger than {largest:,} bytes")
     return content
 
 
-def decode(path: str | os.PathLike[str]) -> tuple[Codes, int, Header]:
+def _rows(header: bytes) -> Iterator[tuple[int, int]]:
+    """How many rows of how many bytes (with that of the filter) the pixels of an image take, for each of its passes.
+
+    Raises:
+        ValueError: there is no image with this IHDR chunk.
+    """
+    width, height, depth, kind, compression, filtering, interlace = struct.unpack(">IIBBBBB", header)
+    samples, depths = _COLOUR_TYPES.get(kind, (0, ()))
+    if depth not in depths or compression or filtering or interlace > 1:
+        raise ValueError("its header (IHDR) is of no kind of PNG")
+    for left, top, across, down in _PASSES if interlace else ((0, 0, 1, 1),):
+        columns, rows = -(-(width - left) // across), -(-(height - top) // down)
+        if columns > 0 and rows > 0:
+            yield rows, 1 + (columns * samples * depth + 7) // 8
+
+
+def _check_pixels(content: bytes) -> None:
+    """Refuse an image whose pixels are not all there: the library would speak of it on its own.
+
+    Raises:
+        ValueError: a chunk is missing, or the data of the pixels are too few, damaged, or of an unknown filter.
+    """
+    known = list(chunks(content))
+    kinds = [kind for kind, _ in known]
+    if kinds[0] != b"IHDR" or kinds[-1] != b"IEND":
+        raise ValueError("it does not go from IHDR to IEND")
+    rows = list(_rows(known[0][1]))
+    if known[0][1][9] == 3 and b"PLTE" not in kinds:
+        raise ValueError("its palette is missing")
+    inflate = zlib.decompressobj()
+    at = done = 0  # bytes before this pass, and in all
+    expected = sum(count * length for count, length in rows)
+    passes = iter(rows)
+    count, length = next(passes)
+    for kind, data in known:
+        if kind != b"IDAT":
+            continue
+        while data and done < expected:
+            piece = inflate.decompress(data, min(_PIECE, at + count * length - done))
+            data = inflate.unconsumed_tail
+            if not piece:
+                break
+            first = (at - done) % length
+            if piece[first::length] and max(piece[first::length]) > 4:
+                raise ValueError("its pixels have an unknown filter")
+            done += len(piece)
+            if done == at + count * length and done < expected:
+                at = done
+                count, length = next(passes)
+    if done < expected:
+        raise ValueError(f"its pixels have {done:,} bytes instead of {expected:,}")
+
+
+def decode(
+    path: str | os.PathLike[str], bytes_a_pixel: int = BYTES_A_PIXEL
+) -> tuple[Codes, NDArray[np.uint8] | None, Header]:
     """Read the code values of a PNG.
 
+    Args:
+        path: the file.
+        bytes_a_pixel: memory that the caller will need for each pixel.
+
     Returns:
-        Codes (h, w, 3), uint8 or uint16, from 0 to 2^bits − 1; the bits of a channel; and what the file says of itself.
-        A grey file has three equal channels; opacity is left out.
+        Codes (h, w, 3), uint8 or uint16, from 0 to 2^bits − 1; opacity (h, w), uint8, or None where the file has none;
+        and what the file says of itself. A grey file has three equal channels.
 
     Raises:
         ImageError: the file is not there, is no whole PNG, or cannot be decoded.
+        MachineError: the image does not fit into the memory that is free.
     """
     import numpy as np
     import OpenImageIO as oiio
 
-    header = read_header(path)
+    content = _content(path)
+    header = _header(content, path)
+    machine.check_file(path, bytes_a_pixel * header.width * header.height)
+    try:
+        _check_pixels(content)
+    except (ValueError, struct.error, zlib.error) as error:
+        raise ImageError(f"{path} is not a whole PNG: {error}.") from error
     # Codes as they are: the library would otherwise multiply colour by opacity.
     plain = oiio.ImageSpec()
     plain.attribute("oiio:UnassociatedAlpha", 1)
@@ -284,4 +389,10 @@ def decode(path: str | os.PathLike[str]) -> tuple[Codes, int, Header]:
     largest, top = (65535 if wide else 255), (1 << header.bits) - 1
     if top != largest:
         codes = ((codes.astype(np.uint32) * top + largest // 2) // largest).astype(codes.dtype)
-    return np.ascontiguousarray(codes), header.bits, header
+    matte = None
+    if spec.nchannels in (2, 4):
+        opacity = pixels[..., -1]
+        matte = (
+            ((opacity.astype(np.uint32) * 255 + 32767) // 65535).astype(np.uint8) if wide else opacity.copy()
+        )
+    return np.ascontiguousarray(codes), matte, header

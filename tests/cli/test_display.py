@@ -13,6 +13,7 @@ from PIL import ImageCms
 
 from illuminant import png
 from illuminant.cli import run
+from illuminant.display import displays
 from illuminant.display.picture import Picture
 from illuminant.image import Image
 
@@ -104,6 +105,38 @@ def test_run_lengths_hold_a_picture(exr: Path, tmp_path: Path, capsys: pytest.Ca
     assert "sRGB with 8 bits is not that" in capsys.readouterr().err
 
 
+def test_info_of_a_picture_says_how_it_was_shown(
+    exr: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "a.png"
+    assert (
+        run(["display", str(exr), str(out), "--gamut", "clamp", "--dither", "ordered-4", "--bits", "4"]) == 0
+    )
+    capsys.readouterr()
+    assert run(["info", str(out)]) == 0
+    said = capsys.readouterr().out
+    assert "PNG, 4 bits a channel, sRGB; display sRGB, tone none, gamut clamp, dither ordered-4" in said
+    assert run(["info", str(out), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["look"]["dither"] == "ordered-4"
+
+
+def test_info_of_run_lengths_says_their_display_and_what_they_save(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    codes = np.zeros((486, 512, 3), np.uint8)
+    Picture(codes, displays.named("book NTSC")).save(tmp_path / "a.rle")
+    assert run(["info", str(tmp_path / "a.rle")]) == 0
+    said = capsys.readouterr().out
+    assert "512x486" in said and "run lengths, 8 bits a channel, γ = 2.2" in said
+    assert "9,808 bytes for 746,496, 76.1 to 1" in said
+    assert run(["info", str(tmp_path / "a.rle"), "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["compression"]["stored"] == 9808 and facts["display"]["response"] == "gamma 2.2"
+    (tmp_path / "b.rle").write_bytes(b"ILRL")
+    assert run(["info", str(tmp_path / "b.rle")]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
 def test_opencolorio_agrees(exr: Path, tmp_path: Path) -> None:
     grey = Image(Image.open(exr).xyz[:8])
     grey.save(tmp_path / "grey.exr")
@@ -154,6 +187,7 @@ def test_hostile_files_are_one_sentence(
     spec = oiio.ImageSpec(2, 2, 2, oiio.FLOAT)
     spec.channelnames = ("U", "V")
     file = oiio.ImageOutput.create("uv.exr")
+    assert file is not None
     file.open(str(tmp_path / "uv.exr"), spec)
     file.write_image(np.zeros((2, 2, 2), np.float32))
     file.close()

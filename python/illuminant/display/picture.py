@@ -32,7 +32,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from illuminant import output
+from illuminant import machine, output
 from illuminant.display import displays
 from illuminant.errors import ImageError, UsageError
 
@@ -57,12 +57,15 @@ class Picture:
         display: whose code values they are.
         bits: of a channel, 1 to 16.
         text: keyword and value of each text chunk of the file.
+        matte: (h, w) uint8, how much of each pixel is covered, 255 for all of it; None when nothing is known of it.
+            It is read from a run-length file or from the opacity of a PNG, and kept by run-length files only.
     """
 
     codes: Codes
     display: displays.Display
     bits: int = 8
     text: dict[str, str] = field(default_factory=dict)
+    matte: NDArray[np.uint8] | None = None
 
     def __post_init__(self) -> None:
         """Check shape, type and range."""
@@ -77,6 +80,14 @@ class Picture:
         if not np.issubdtype(codes.dtype, np.integer) or int(codes.max()) > self.top or int(codes.min()) < 0:
             raise UsageError(f"A picture of {self.bits} bits holds whole numbers from 0 to {self.top}.")
         self.codes = cast("Codes", np.ascontiguousarray(codes, wanted))
+        if self.matte is not None:
+            matte = np.asarray(self.matte)
+            if matte.shape != codes.shape[:2] or matte.dtype != np.uint8:
+                wanted_matte = f"uint8 of shape {codes.shape[:2]}"
+                raise UsageError(
+                    f"The matte of this picture is {wanted_matte}, not {matte.dtype} of {matte.shape}."
+                )
+            self.matte = matte
 
     @classmethod
     def of_values(
@@ -129,22 +140,26 @@ class Picture:
         """What the display sends, XYZ in cd/m², (h, w, 3)."""
         return self.display.to_xyz(self.values)
 
-    def encode(self) -> bytes:
-        """The PNG file.
+    def encode(self, text: dict[str, str] | None = None) -> bytes:
+        """The PNG file; a matte is left out.
+
+        Args:
+            text: text chunks to be added to the picture's own.
 
         Raises:
             UsageError: no chunk of a PNG can state the primaries of the display.
         """
         from illuminant import png
 
-        return png.encode(self.codes, self.bits, self.display, self.text)
+        return png.encode(self.codes, self.bits, self.display, self.text | (text or {}))
 
     def save(self, path: str | os.PathLike[str], text: dict[str, str] | None = None) -> None:
         """Write the file, whole or not at all.
 
         Args:
             path: ends with `.png`, or with `.rle` for a run-length encoded image (`illuminant.display.run_length`).
-            text: text chunks to be added to the picture's own; a run-length file has none.
+            text: text chunks to be added to the picture's own; a run-length file has none. A PNG keeps no
+                matte.
 
         Raises:
             UsageError: the name ends otherwise, or a run-length file cannot hold this picture.
@@ -154,8 +169,7 @@ class Picture:
         if path.suffix.lower() == ".rle":
             self._save_run_length(path)
             return
-        self.text |= text or {}
-        output.write_bytes(path, self.encode())
+        output.write_bytes(path, self.encode(text))
 
     def _save_run_length(self, path: Path) -> None:
         import numpy as np
@@ -171,27 +185,36 @@ class Picture:
         run_length.write(
             path,
             np.asarray(self.codes, np.uint8),
+            self.matte,
             primaries=self.display.primaries,
             white=self.display.white,
             gamma=None if gamma == 1.0 else gamma,
         )
 
     @classmethod
-    def open(cls, path: str | os.PathLike[str], assume: str | displays.Display | None = None) -> Picture:
+    def open(
+        cls,
+        path: str | os.PathLike[str],
+        assume: str | displays.Display | None = None,
+        *,
+        bytes_a_pixel: int = 24,
+    ) -> Picture:
         """Open a PNG file, made here or elsewhere, or a run-length file.
 
         Args:
             path: the file.
             assume: the display to take when the file does not say which it is for.
+            bytes_a_pixel: memory that will be needed for each pixel.
 
         Raises:
             ImageError: the file is not there, is no whole PNG, or does not say which display it is for.
+            MachineError: the picture does not fit into the memory that is free.
         """
         if Path(path).suffix.lower() == ".rle":
-            return cls._open_run_length(path)
+            return cls._open_run_length(path, bytes_a_pixel)
         from illuminant import png
 
-        codes, bits, header = png.decode(path)
+        codes, matte, header = png.decode(path, bytes_a_pixel)
         display = header.display
         if display is None:
             if assume is None:
@@ -199,23 +222,35 @@ class Picture:
                     f"{path} does not say which display its numbers are for: name one (--assume sRGB, assume=...)."
                 )
             display = displays.named(assume)
-        return cls(codes, display, bits, header.text)
+        return cls(codes, display, header.bits, header.text, matte)
 
     @classmethod
-    def _open_run_length(cls, path: str | os.PathLike[str]) -> Picture:
+    def _open_run_length(cls, path: str | os.PathLike[str], bytes_a_pixel: int) -> Picture:
+        import struct
+
         from illuminant.display import run_length
 
+        try:
+            with open(path, "rb") as file:
+                start = file.read(16)
+        except OSError as error:
+            raise ImageError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
+        if start.startswith(b"ILRL") and len(start) == 16:
+            width, height = struct.unpack_from(">II", start, 8)
+            if width * height <= run_length.MOST_PIXELS:  # what is larger is refused by its reader
+                machine.check_file(path, bytes_a_pixel * width * height)
         found = run_length.read(path)
         red, green, blue = found.primaries
         response = "linear" if found.gamma is None else f"gamma {found.gamma:.9g}"
-        return cls(found.rgb, displays.Display("run-length", (red, green, blue), found.white, response))
+        display = displays.Display("run-length", (red, green, blue), found.white, response)
+        return cls(found.rgb, display, matte=found.matte)
 
     @property
     def settings(self) -> dict[str, Any]:
         """How the picture was made, if its file says so."""
         try:
             found = json.loads(self.text.get("Settings", "{}"))
-        except ValueError:
+        except (ValueError, RecursionError):
             return {}
         return found if isinstance(found, dict) else {}
 
