@@ -271,6 +271,7 @@ def remake(
     from illuminant.display.gamut import DEFAULT
 
     usual = {"display": "sRGB", "tone": "none", "gamut": DEFAULT, "dither": "none", "bits": 8}
+    usual |= {"transfer": None, "pipeline": "ideal"}
     for key, default in usual.items():
         if look and look.get(key, default) != default:
             words += [f"--{key}", str(look[key])]

@@ -250,12 +250,33 @@ def _header(content: bytes, path: str | os.PathLike[str]) -> Header:
 
 
 def _stated(text: dict[str, str], found: dict[bytes, bytes]) -> Display | None:
-    """The display that a file states: our own text first, then the chunks in the order of the specification."""
-    if "Display" in text:
-        try:
-            return displays.described(json.loads(text["Display"]), "its text `Display`")
-        except (DataError, ValueError, RecursionError, OverflowError, AttributeError, TypeError):
-            pass  # another program's text of that name; the chunks say it too
+    """The display that a file states: by its chunks, or by our own text where that says the same and more."""
+    by_chunks = _by_chunks(found)
+    if "Display" not in text:
+        return by_chunks
+    try:
+        ours = displays.described(json.loads(text["Display"]), "its text `Display`")
+    except (DataError, ValueError, RecursionError, OverflowError, AttributeError, TypeError):
+        return by_chunks  # another program's text of that name
+    # A program that gave the picture another display may have left our text as it was.
+    return ours if by_chunks is None or _agree(ours, by_chunks) else by_chunks
+
+
+def _agree(ours: Display, other: Display) -> bool:
+    """Whether two displays are one, as far as chunks can tell: primaries, white and response."""
+    import numpy as np
+
+    xy = [np.array([*one.primaries, one.white]) for one in (ours, other)]
+    if np.abs(xy[0] - xy[1]).max() > 2e-3:
+        return False
+    if ours.response == other.response:
+        return True
+    codes = np.repeat(np.linspace(0.0, 1.0, 9)[:, None], 3, axis=1)
+    return bool(np.abs(ours.decode(codes) - other.decode(codes)).max() < 0.02)
+
+
+def _by_chunks(found: dict[bytes, bytes]) -> Display | None:
+    """The display that the chunks state, in the order of the specification."""
     if b"cICP" in found:
         code, rest = tuple(found[b"cICP"][:2]), found[b"cICP"][2:]
         name = next((name for name, known in _CICP.items() if known[:2] == code), _OTHER_CICP.get(code))

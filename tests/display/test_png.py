@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import OpenImageIO as oiio
 import PIL.Image
+import PIL.PngImagePlugin
 import pytest
 from PIL import ImageCms
 
@@ -130,6 +131,17 @@ def test_the_chunks_alone_say_the_same(image: Image, tmp_path: Path, name: str) 
         np.testing.assert_allclose(
             found.xyz() / found.display.peak, whole.xyz() / whole.display.peak, rtol=0, atol=3e-4
         )
+
+
+def test_chunks_are_believed_over_a_text_that_was_left_behind(image: Image, tmp_path: Path) -> None:
+    image.save(tmp_path / "a.png", Look("Display P3"))
+    with PIL.Image.open(tmp_path / "a.png") as opened:
+        text = PIL.PngImagePlugin.PngInfo()
+        text.add_itxt("Display", opened.text["Display"])
+        profile = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
+        opened.save(tmp_path / "b.png", pnginfo=text, icc_profile=profile)
+    found = Picture.open(tmp_path / "b.png").display
+    np.testing.assert_allclose(found.primaries, displays.named("sRGB").primaries, atol=1e-3)
 
 
 def test_a_file_that_does_not_say_its_display_is_questioned(image: Image, tmp_path: Path) -> None:
