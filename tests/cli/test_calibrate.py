@@ -155,6 +155,10 @@ def test_littlecms_opens_the_profile_and_makes_the_same_colours_of_it(folder):
         (["log", "log.csv", "--readings", "good.csv", "--date", "May"], "--date May"),
         (["log", "log.csv", "--note", "x"], "Nothing to record"),
         (["log", "log.csv", "--readings", "good.csv", "--kind", "half"], "not 'half'"),
+        (["log", "log.csv", "--readings", "good.csv", "--date", "9999-12-31"], "up to 9999-07-02"),
+        (["fit", "good.csv", "-o", "a.toml", "--luminance", "0"], "number above 0, not 0"),
+        (["fit", "good.csv", "-o", "a.toml", "--luminance", "nan"], "number above 0, not nan"),
+        (["patterns", "-o", "a", "--size", "20x20"], "A crosshatch has 1 to 5 squares"),
         (["simulate", "-o", "a.csv", "--seed", "-1"], "--seed -1"),
         (["simulate", "-o", "a.csv", "--noise", "nan"], "--noise nan"),
         (["simulate", "-o", "a.csv", "--minutes", "nan"], "--minutes nan"),
@@ -171,6 +175,21 @@ def test_a_mistake_is_one_sentence(folder, capsys, arguments, words):
     assert run(["calibrate", *arguments]) == 2
     captured = capsys.readouterr()
     assert words in captured.err and captured.err.count("\n") == 1
+    assert sorted(path.name for path in folder.iterdir()) == ["bad.csv", "good.csv"]
+
+
+def test_a_record_of_the_last_days_stays_readable(folder, capsys):
+    white_low = ["--white", "97.9,103,112.2", "--low", "2.9,3,3.3"]
+    assert run(["calibrate", "log", "log.csv", *white_low, "--date", "9999-07-02"]) == 0
+    before = (folder / "log.csv").read_bytes()
+    assert run(["calibrate", "log", "log.csv", *white_low, "--date", "9999-07-03"]) == 2
+    assert (folder / "log.csv").read_bytes() == before
+    capsys.readouterr()
+    assert run(["calibrate", "log", "log.csv"]) == 0
+    assert "in full: 9999-12-31" in capsys.readouterr().out
+    (folder / "log.csv").write_bytes(before.replace(b"9999-07-02", b"9999-12-01"))
+    assert run(["calibrate", "log", "log.csv"]) == 2
+    assert "has no next one" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("page", "least"), [("calibration.md", 10), ("test-patterns.md", 13)])

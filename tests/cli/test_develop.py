@@ -155,6 +155,14 @@ def test_a_regular_grid_goes_into_an_exr(folder: Path, capsys: pytest.CaptureFix
     assert "a PNG holds no spectra" in capsys.readouterr().err
 
 
+def test_the_seed_of_a_random_dither_is_an_option(folder: Path) -> None:
+    bytes_of = []
+    for seed in ("0", "7", "7"):
+        assert developed(folder, "--dither", "random", "--bits", "2", "--seed", seed, to="out.png") == 0
+        bytes_of.append((folder / "out.png").read_bytes())
+    assert bytes_of[0] != bytes_of[1] and bytes_of[1] == bytes_of[2]
+
+
 def test_the_help_fits_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["develop", "--help"]) == 0
     said = capsys.readouterr().out

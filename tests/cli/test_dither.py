@@ -25,6 +25,12 @@ def photograph(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.parametrize("verb", ["gamut", "gamut strips", "dither", "dither halftone", "video transmit"])
+def test_the_help_fits_a_terminal(inside: Command, verb: str) -> None:
+    done = inside(*verb.split(), "--help")
+    assert done.returncode == 0 and max(map(len, done.stdout.splitlines())) <= 80
+
+
 def test_every_dither_is_listed(inside: Command) -> None:
     done = inside("dither", "list")
     assert [line.split()[0] for line in done.stdout.splitlines()] == dither.names()
@@ -78,11 +84,24 @@ def test_an_image_is_compared_and_turned_into_a_halftone(
     wanted = patterning.halftone(Picture.open(photograph), "blue-noise").codes
     np.testing.assert_array_equal(sheet.codes[:, 32:64], wanted * 255)
     done = inside(
-        "dither", "halftone", photograph, tmp_path / "h.png", "--by", "pattern-2x3", "--enlarge", "--grey"
+        "dither", "halftone", photograph, tmp_path / "h.png", "--dither", "pattern-2x3", "--enlarge", "--grey"
     )
     assert done.stderr == f"{tmp_path / 'h.png'}: 64x72, 1 bit, by pattern-2x3\n"
     made = Picture.open(tmp_path / "h.png")
     assert made.bits == 1 and (made.codes == made.codes[..., :1]).all()
+
+
+def test_the_seed_of_a_random_halftone_is_an_option(
+    inside: Command, photograph: Path, tmp_path: Path
+) -> None:
+    def made(*options: object) -> np.ndarray:
+        done = inside("dither", "halftone", photograph, tmp_path / "h.png", "--dither", "random", *options)
+        assert done.returncode == 0
+        return Picture.open(tmp_path / "h.png").codes
+
+    np.testing.assert_array_equal(made(), made("--seed", 0))
+    assert (made("--seed", 7) != made()).any()
+    np.testing.assert_array_equal(made("--seed", 7), made("--seed", 7))
 
 
 def test_the_patterns_are_drawn_and_counted(inside: Command, tmp_path: Path) -> None:
@@ -125,9 +144,9 @@ def test_mistakes_are_sentences(inside: Command, photograph: Path, tmp_path: Pat
         (("compare", *out, "--mean", "dark"), "light or of codes"),
         (("compare", tmp_path / "no.png", *out), "no such file|cannot be read"),
         (("halftone", photograph, tmp_path / "h.jpg"), "saved as .png"),
-        (("halftone", photograph, tmp_path / "h.png", "--by", "ink"), "no dither 'ink'"),
+        (("halftone", photograph, tmp_path / "h.png", "--dither", "ink"), "no dither 'ink'"),
         (("halftone", photograph, tmp_path / "h.png", "--bits", 0), "1 to 16"),
-        (("halftone", photograph, tmp_path / "h.png", "--by", "random", "--enlarge"), "cannot enlarge"),
+        (("halftone", photograph, tmp_path / "h.png", "--dither", "random", "--enlarge"), "cannot enlarge"),
         (("patterns", *out, "--cells", "2by2"), "WxH"),
         (("patterns", *out, "--cells", "9x9"), "up to 64 patterns"),
         (("study", "--bits", 40), "1 to 16"),

@@ -83,6 +83,14 @@ def test_readings_are_fitted_and_drawn(inside: Command, readings: Path, tmp_path
         assert done.returncode == 2 and sentence in done.stderr, arguments
 
 
+def test_a_table_that_tells_no_gamma_is_named(inside: Command, tmp_path: Path) -> None:
+    path = tmp_path / "equal.csv"
+    path.write_text("code,luminance\n" + "".join(f"{code},1e308\n" for code in range(0, 256, 15)))
+    done = inside("gamma", "fit", path)
+    assert done.returncode == 2 and done.stdout == ""
+    assert done.stderr.startswith(f"Error: {path}: luminance: A gamma needs at least two readings above 0")
+
+
 def test_phosphors_make_a_matrix(inside: Command, tmp_path: Path) -> None:
     path = tmp_path / "crt.csv"
     path.write_text("colour,x,y\nred,0.67,0.33\ngreen,0.21,0.71\nblue,0.14,0.08\nwhite,0.313,0.329\n")
@@ -126,7 +134,7 @@ def test_mistakes_in_the_studies_are_sentences(inside: Command, tmp_path: Path) 
         (("brightness", "--black", "0"), "share"),
         (("banding", "--bits", "8.5"), "whole numbers"),
         (("banding", "--bits", "12"), "8 bits"),
-        (("banding", "--colour", "1,1"), "three numbers"),
+        (("banding", "--color", "1,1"), "three numbers"),
     ):
         done = inside("gamma", *arguments, "-o", tmp_path / "a.png")
         assert done.returncode == 2 and sentence in done.stderr, (arguments, done.stderr)
@@ -177,6 +185,33 @@ def test_a_picture_is_mapped_to_another_display_and_told_what_it_lost(
     assert fine["mean"] < 0.01
     wide = inside("gamma", "remap", before, back, "--from", "Rec.2020 PQ", "--to", "sRGB")
     assert wide.returncode == 0 and "0.00 % of pixels" not in wide.stdout
+
+
+def test_a_mapping_keeps_no_word_of_the_display_it_left(inside: Command, tmp_path: Path) -> None:
+    import PIL.Image
+
+    from illuminant.display.picture import Picture
+
+    before, after, mute = (tmp_path / f"{name}.png" for name in ("before", "after", "mute"))
+    text = {"Note": "kept", "Look": '{"display": "sRGB"}', "Exposure": "0.5"}
+    Picture(np.full((2, 2, 3), 90, np.uint8), "sRGB", 8, text).save(before)
+    assert inside("gamma", "remap", before, after, "--to", "Display P3").returncode == 0
+    there = Picture.open(after).text
+    assert there["Note"] == "kept" and not {"Look", "Exposure"} & set(there)
+    assert json.loads(there["Display"])["name"] == "Display P3"
+    assert inside("gamma", "remap", before, after, "--to", "sRGB", "--bits", 10).returncode == 0
+    assert Picture.open(after).text["Exposure"] == "0.5"
+    PIL.Image.new("RGB", (2, 2), (90, 90, 90)).save(mute)
+    done = inside("gamma", "remap", mute, after, "--to", "Display P3")
+    assert done.returncode != 0 and "--assume" in done.stderr
+    told = json.loads(
+        inside("gamma", "remap", mute, after, "--to", "sRGB", "--assume", "SMPTE-C", "--json").stdout
+    )
+    assert told["from"] == "SMPTE-C"
+    told = json.loads(
+        inside("gamma", "remap", before, after, "--to", "sRGB", "--assume", "SMPTE-C", "--json").stdout
+    )
+    assert told["from"] == "sRGB"
 
 
 def test_mistakes_in_a_mapping_are_sentences(inside: Command, tmp_path: Path) -> None:

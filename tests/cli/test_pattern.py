@@ -82,6 +82,8 @@ def test_list_names_every_pattern_with_its_options(capsys):
         (["window", "--size", "big"], "--size big: expected width and height"),
         (["window", "--size", "1x1"], "16 to 16384"),
         (["window", "--bits", "20"], "1 to 16 bits, not 20"),
+        (["window", "--bits", "0"], "1 to 16 bits, not 0"),
+        (["colorchecker", "--light", "0K"], "expected a temperature in K"),
         (["window", "--display", "TV"], "There is no display 'TV'"),
         (["window", "-o", "a.jpg"], "written as .png"),
         (["window", "-o", "none/a.png"], "there is no folder none"),

@@ -1,5 +1,6 @@
 """Developing again: powers, observers, lamps, cameras and regular grids, against closed forms and renders."""
 
+import dataclasses
 import json
 from pathlib import Path
 from typing import Any
@@ -184,6 +185,35 @@ def test_layers_of_xyz_are_enough_for_powers() -> None:
 
 
 # --- observers --------------------------------------------------------------------------------------------------
+
+
+def test_spectra_are_not_written_of_lamps_whose_lanes_are_not_known(kept: Image) -> None:
+    alone = {name: layer for name, layer in kept.layers.items() if not name.startswith("spectra:")}
+    image = dataclasses.replace(kept, layers=alone)
+    for change in (
+        {"power": {"desk": 0.0}},
+        {"power": {"desk": 2.0}, "observer": "10"},
+        {"lamps": {"desk": "A"}},
+    ):
+        with pytest.raises(ImageError, match="lanes of lamp 'desk' are not kept apart"):
+            develop(image, regular=10, **change)
+    made = develop(image, regular=10)
+    assert made.to_xyz is not None
+    y = (made.layers["spectra"] @ made.to_xyz.T)[..., 1].sum()
+    assert y == pytest.approx(image.xyz[..., 1].sum(), rel=0.01)
+    # Where lanes are kept apart, what is written is what is left.
+    off = develop(kept, power={"desk": 0.0}, regular=10)
+    assert off.to_xyz is not None
+    y = (off.layers["spectra"] @ off.to_xyz.T)[..., 1].sum()
+    assert y == pytest.approx(off.xyz[..., 1].sum(), rel=0.01)
+
+
+def test_a_layer_that_is_no_light_is_refused() -> None:
+    ones = np.ones((2, 3, 3))
+    for layer in (ones[..., :2], ones[:1]):
+        image = Image(2 * ones, layers={"lamp:one": ones, "lamp:two": layer})
+        with pytest.raises(ImageError, match=r"layer 'lamp:two' of a\.exr cannot be a part .* \(2, 3, 3\)"):
+            develop(image, power={"two": 0.0}, name="a.exr")
 
 
 def test_every_nm_is_integrated_by_hand() -> None:

@@ -316,6 +316,23 @@ def test_mistakes_in_readings_are_sentences():
             fit_gamma([1, 1, 1, 1, 1], [1, 2, 3, 4, 5], model)
 
 
+@pytest.mark.parametrize("model", MODELS)
+def test_readings_that_tell_no_gamma_are_one_sentence(model):
+    dark = np.where(CODES < 255, -1.0 - CODES / 255.0, 3.0)
+    huge = np.full(len(CODES), 1e308)
+    for read in (dark, huge, np.where(CODES < 255, 0.0, 1.0), np.where(CODES < 1, 1.0, -CODES)):
+        with pytest.raises(DataError, match="two readings above 0 that differ"):
+            fit_gamma(CODES, read, model)
+    # Two that differ, or numbers near the largest there are: a finite fit or a sentence.
+    few = np.where(CODES > 230, CODES / 255.0, -2.0)
+    for read in (few, huge * (CODES / 255.0), np.where(CODES == 0, 2.0, np.where(CODES == 255, 3.0, -1.0))):
+        try:
+            found = fit_gamma(CODES, read, model)
+        except (DataError, UsageError):
+            continue
+        assert np.isfinite([found.gamma, found.gamma_error, found.scatter, *found.errors.values()]).all()
+
+
 def test_black_that_was_read_by_itself_is_taken_off_first():
     v = CODES / 255.0
     found = fit_gamma(CODES, 80.0 * v**2.3 + 0.5, black=0.5)

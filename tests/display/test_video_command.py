@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import PIL.Image
 import pytest
 
 from illuminant import plots
@@ -44,6 +45,35 @@ def test_transmit_writes_what_the_function_computes(video: Inside) -> None:
     assert video("transmit", "bars.png", "pair.png", "--beside").returncode == 0
     np.testing.assert_array_equal(opened("pair.png").codes[:, :128], before.codes)
     assert video("transmit", "bars.png", "c.png", "--correct", "--bandwidth", "4.2,1.3,1.3").returncode == 0
+
+
+def test_a_picture_of_no_display_is_refused_until_one_is_named(video: Inside) -> None:
+    PIL.Image.new("RGB", (16, 8), (90, 30, 20)).save("mute.png")
+    verbs = [
+        "transmit mute.png out.png",
+        "transmit mute.png out.png --correct",
+        "check mute.png --repair out.png",
+        "monochrome mute.png out.png",
+        "safe mute.png out.png",
+        "components mute.png out.png",
+        "scope mute.png -o out.png",
+        "fields mute.png mute.png out.png",
+        "fields --split mute.png odd.png out.png",
+    ]
+    for verb in verbs:
+        done = video(*verb.split())
+        assert done.returncode not in (0, 3) and "does not say which display" in done.stderr, verb
+        assert not Path("out.png").exists()
+        assert video(*verb.split(), "--assume", "SMPTE-C").returncode == 0, verb
+        if "scope" not in verb:
+            assert opened("out.png").display.name == "SMPTE-C"
+        Path("out.png").unlink()
+
+
+def test_frames_have_any_number(video: Inside) -> None:
+    assert video("transmit", "bars.png", "a.png", "--frame", 99999999999999999999).returncode == 0
+    assert video("transmit", "bars.png", "b.png", "--frame", 1).returncode == 0
+    assert Path("a.png").read_bytes() == Path("b.png").read_bytes()
 
 
 def test_check_ends_with_one_above_the_limit_and_repairs(video: Inside) -> None:

@@ -79,14 +79,14 @@ def test_what_440_pixels_cannot_hold_is_lost() -> None:
 
 
 def test_colour_has_less_detail_than_luminance_and_q_less_than_i() -> None:
-    """50 cycles a line: 0.95 MHz."""
+    """68 cycles a line are 1.29 MHz, where I is 1.8 dB down in the encoder and again in the decoder."""
     kept = []
     for axis in range(3):
         yiq = np.zeros((6, 640, 3))
         yiq[..., 0] = 0.5
-        yiq[..., axis] += 0.2 * np.cos(2 * np.pi * 50 * np.arange(640) / 640)
+        yiq[..., axis] += 0.2 * np.cos(2 * np.pi * 68 * np.arange(640) / 640)
         kept.append(contrast(transmission.transmit(color.yiq_to_rgb(yiq)), axis) / 0.2)
-    assert kept[0] > 0.98 and 0.6 < kept[1] < 0.95 and kept[2] < 0.02
+    assert kept[0] > 0.98 and 0.6 < kept[1] < 0.75 and kept[2] < 0.02
 
 
 def test_the_parts_in_y_i_and_q_add_up_to_the_picture() -> None:
@@ -360,7 +360,7 @@ def test_code_values_of_a_png_come_back_bit_for_bit(bits: int, tmp_path) -> None
         np.uint8 if bits == 8 else np.uint16
     )
     Picture(codes, "Display P3", bits).save(tmp_path / "a.png")
-    found = opened(tmp_path / "a.png", colours=True)
+    found = opened(tmp_path / "a.png")
     np.testing.assert_array_equal(found.codes, codes)
     assert (found.display.name, found.bits) == ("Display P3", bits)
     again = with_values(found, found.values, "the same")
@@ -371,8 +371,8 @@ def test_code_values_of_a_png_come_back_bit_for_bit(bits: int, tmp_path) -> None
 def test_transparency_is_left_out_and_grey_fills_three_channels(tmp_path) -> None:
     PIL.Image.new("RGBA", (4, 3), (9, 200, 3, 99)).save(tmp_path / "clear.png")
     PIL.Image.new("L", (4, 3), 77).save(tmp_path / "grey.png")
-    assert opened(tmp_path / "clear.png").codes[1, 1].tolist() == [9, 200, 3]
-    assert opened(tmp_path / "grey.png").codes[1, 1].tolist() == [77, 77, 77]
+    assert opened(tmp_path / "clear.png", "sRGB").codes[1, 1].tolist() == [9, 200, 3]
+    assert opened(tmp_path / "grey.png", "sRGB").codes[1, 1].tolist() == [77, 77, 77]
 
 
 def test_files_that_are_no_frame_buffer_are_refused(tmp_path) -> None:
@@ -390,6 +390,12 @@ def test_files_that_are_no_frame_buffer_are_refused(tmp_path) -> None:
     with pytest.raises(UsageError, match="not a number"):
         with_values(Picture.of_values(np.zeros((1, 1, 3)), "sRGB"), np.full((1, 1, 3), np.nan), "")
     PIL.Image.new("RGB", (4, 3)).save(tmp_path / "mute.png")
-    assert opened(tmp_path / "mute.png").display.name == "sRGB"
-    with pytest.raises(ImageError, match="does not say which display"):
-        opened(tmp_path / "mute.png", colours=True)
+    with pytest.raises(ImageError, match=r"does not say which display.*--assume"):
+        opened(tmp_path / "mute.png")
+    assert opened(tmp_path / "mute.png", "SMPTE-C").display.name == "SMPTE-C"
+
+
+def test_other_codes_keep_no_word_of_how_light_became_the_old_ones() -> None:
+    text = {"Look": "{}", "Exposure": "2", "Display": "{}", "Settings": "{}"}
+    made = with_values(Picture(np.zeros((1, 1, 3), np.uint8), "sRGB", 8, text), np.ones((1, 1, 3)), "white")
+    assert made.text == {"Settings": "{}", "Description": "white"}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from illuminant.cli.options import Bits, DisplayName, DitherName, GamutName, Json, ToneName, Transfer
+from illuminant.cli.options import Assume, Bits, DisplayName, DitherName, GamutName, Json, ToneName, Transfer
 
 if TYPE_CHECKING:
     from illuminant.image import Image, Saved
@@ -93,6 +93,10 @@ def develop(
             show_default=False,
         ),
     ] = None,
+    seed: Annotated[
+        int, typer.Option("--seed", metavar="N", help="Of the random dither (0).", show_default=False)
+    ] = 0,
+    assume: Assume = None,
     json: Json = False,
 ) -> None:
     """Show an image under another observer, other lamps or other powers.
@@ -115,8 +119,8 @@ def develop(
     check_output(output)
     if regular is not None and output.suffix.lower() != ".exr":
         raise UsageError(f"--regular {regular:g}: a PNG holds no spectra; name an .exr to be written.")
-    look = Look(display or "sRGB", exposure, transfer, tone, gamut, dither, bits)
-    source = Image.open(image)
+    look = Look(display or "sRGB", exposure, transfer, tone, gamut, dither, bits, seed)
+    source = Image.open(image, assume)
     names = developing.lamps_of(source)
     lamps = dict(_pair("--lamp", word, names) for word in lamp or [])
     powers = {

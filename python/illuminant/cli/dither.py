@@ -231,7 +231,7 @@ def halftone(
     by: Annotated[
         str,
         typer.Option(
-            "--by", metavar="NAME", help="pattern-WxH, or a dither (pattern-2x2).", show_default=False
+            "--dither", metavar="NAME", help="pattern-WxH, or a dither (pattern-2x2).", show_default=False
         ),
     ] = "pattern-2x2",
     bits: Annotated[
@@ -241,6 +241,9 @@ def halftone(
     grey: Grey = False,
     mean: Mean = None,
     exposure: Exposure = None,
+    seed: Annotated[
+        int, typer.Option("--seed", metavar="N", help="Of the random dither (0).", show_default=False)
+    ] = 0,
     assume: Assume = None,
 ) -> None:
     """Turn a picture into a halftone: few codes, arranged so that the eye sees many.
@@ -251,8 +254,8 @@ def halftone(
     \b
     Examples:
       illuminant dither halftone room.png dots.png --grey
-      illuminant dither halftone room.png dots.png --by floyd-steinberg
-      illuminant dither halftone small.png large.png --by pattern-3x3 --enlarge
+      illuminant dither halftone room.png dots.png --dither floyd-steinberg
+      illuminant dither halftone small.png big.png --dither pattern-3x3 --enlarge
     """
     from illuminant.cli.report import note
     from illuminant.display import patterning
@@ -264,7 +267,7 @@ def halftone(
     check_output(output)
     patterning.check(by)
     picture = _opened(image, assume, exposure)
-    made = patterning.halftone(picture, by, bits, enlarge=enlarge, grey=grey, mean=mean or "light")
+    made = patterning.halftone(picture, by, bits, enlarge=enlarge, grey=grey, mean=mean or "light", seed=seed)
     made.save(output)
     note(f"{output}: {made.width}x{made.height}, {bits} {'bit' if bits == 1 else 'bits'}, by {by.casefold()}")
 

@@ -30,7 +30,7 @@ def _start() -> None:
     \b
     Example:
       illuminant gamut study
-      illuminant gamut strips -o strips.png --methods constant-intensity,scale,clamp
+      illuminant gamut strips -o strips.png --methods oklab,scale,clamp
     """
 
 

@@ -168,7 +168,7 @@ def pattern(
 
     check(path)
     width, height = size_of(size)
-    screen = Screen(width, height, bits or patterns.PATTERNS[name].bits, display)
+    screen = Screen(width, height, patterns.PATTERNS[name].bits if bits is None else bits, display)
     if blue_only and name not in ("smpte", "eia"):
         raise UsageError(f"--blue-only is a view of smpte and eia, not of {name}.")
     patterns.save(path, name, screen, blue_only=blue_only, **given)

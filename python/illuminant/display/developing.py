@@ -122,6 +122,7 @@ def develop(
     lamps, power = dict(lamps or {}), {key: float(value) for key, value in (power or {}).items()}
     groups = _groups(image)
     _check_names(name, image, groups, {**lamps, **power})
+    _check_layers(name, image, groups)
     for lamp, factor in power.items():
         if not (0 <= factor <= MOST_POWER):
             raise UsageError(f"--power {lamp}={factor:g}: expected a factor from 0 up, such as 0.5.")
@@ -161,6 +162,20 @@ def _check_names(path: str, image: Image, groups: dict[str, _Group], wanted: Map
             )
         if lamp not in groups:
             raise UsageError(f"There is no lamp {lamp!r} in {path}; there are {', '.join(groups)}.")
+
+
+def _check_layers(path: str, image: Image, groups: dict[str, _Group]) -> None:
+    """Refuse layers of lamps that are not made like those of all light."""
+    for name, group in groups.items():
+        pairs = [(f"lamp:{name}", group.xyz, image.xyz.shape)]
+        if group.lanes is not None and "spectra" in image.layers:
+            pairs.append((f"spectra:{name}", group.lanes, image.layers["spectra"].shape))
+        for layer, found, wanted in pairs:
+            if found.shape != wanted:
+                raise ImageError(
+                    f"The layer {layer!r} of {path} cannot be a part of its light: expected the shape {wanted}, "
+                    f"not {found.shape}."
+                )
 
 
 def _basis(path: str, image: Image) -> KeptSpectra:
@@ -326,8 +341,10 @@ class _Development:
             if f"lamp:{group.name}" in source.layers:
                 layers[f"lamp:{group.name}"] = factor * part
             maps.append((factor, lanes, weights, light))
-        changed = [name for name in self.power if self.groups[name].lanes is None]
-        if changed and not as_before:
+        changed = [
+            name for name in self.power if self.groups[name].lanes is None or self.groups[name].light is None
+        ]
+        if changed and not (as_before and regular is None):
             raise ImageError(
                 f"The lanes of lamp {changed[0]!r} are not kept apart: render the scene again with --keep-spectra "
                 "--lamps."

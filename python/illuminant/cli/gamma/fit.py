@@ -69,7 +69,7 @@ def fit(
     from illuminant.cli.report import emit_json, note
     from illuminant.display.gamma.fitting import fit_gamma
     from illuminant.display.gamma.readings import read_readings
-    from illuminant.errors import UsageError
+    from illuminant.errors import DataError, UsageError
     from illuminant.plots import style
 
     if plot is not None:
@@ -81,6 +81,8 @@ def fit(
             fits[name] = fit_gamma(*column, model, cutoff=cutoff, white_code=white, black=black)
         except UsageError as error:
             raise UsageError(f"{readings}, {name}: {error}") from error
+        except DataError as error:
+            raise DataError(f"{name}: {error.message}", str(readings)) from error
     if json:
         emit_json({name: _facts(found) for name, found in fits.items()})
     else:

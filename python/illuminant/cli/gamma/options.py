@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-__all__ = ["Bits", "Colour", "Gamma", "InBits", "OutBits", "Picture", "Rounding"]
+__all__ = ["Bits", "Color", "Gamma", "InBits", "OutBits", "Picture", "Rounding"]
 
 Gamma = Annotated[
     str,
@@ -24,7 +24,7 @@ Rounding = Annotated[
 
 Bits = Annotated[str, typer.Option("--bits", metavar="A,B", help="Bits of the files that are compared.")]
 
-Colour = Annotated[str, typer.Option("--colour", metavar="R,G,B", help="Linear RGB of the surface, 0 to 1.")]
+Color = Annotated[str, typer.Option("--color", metavar="R,G,B", help="Linear RGB of the surface, 0 to 1.")]
 
 Picture = Annotated[
     Path,

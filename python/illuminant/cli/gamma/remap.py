@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from illuminant.cli.options import Json
+from illuminant.cli.options import Assume, Json
 
 __all__ = ["remap"]
 
@@ -29,7 +29,7 @@ def remap(
         typer.Option(
             "--from",
             metavar="DISPLAY",
-            help="For which it was made (what its file says).",
+            help="For which it was made, whatever its file says (what it says).",
             show_default=False,
         ),
     ] = None,
@@ -40,6 +40,7 @@ def remap(
     match: Annotated[
         str, typer.Option("--match", metavar="HOW", help="relative (white to white) or absolute (cd/m²).")
     ] = "relative",
+    assume: Assume = None,
     json: Json = False,
 ) -> None:
     """Map a picture from one display to another, so that it looks the same, and say what was lost.
@@ -58,20 +59,21 @@ def remap(
     from illuminant.display.gamma.remapping import loss
     from illuminant.display.gamma.remapping import remap as mapped
     from illuminant.display.picture import Picture
+    from illuminant.display.video.frame_buffer import OUTDATED
     from illuminant.errors import UsageError
 
     if output.suffix.lower() != ".png":
         raise UsageError(f"{output}: a picture is saved as .png.")
     files.check(output)
     goal = named(target)
-    found = Picture.open(picture, assume=source)
+    found = Picture.open(picture, assume=assume or source)
     origin = found.display if source is None else named(source)
     out_bits = found.bits if bits is None else bits
     how: Any = match
     codes, clamped = mapped(found.codes, origin, goal, bits=found.bits, out_bits=out_bits, match=how)
     lost = loss(found.codes, codes, origin, goal, bits=found.bits, out_bits=out_bits, match=how)
-    # What the file says of how the picture was made stays true, and what it says of its display does not.
-    text = {key: value for key, value in found.text.items() if key != "Display"}
+    # What the file says of the scene stays true; how its light became codes, and for which display, does not.
+    text = {key: value for key, value in found.text.items() if goal == found.display or key not in OUTDATED}
     Picture(codes, goal, out_bits, text).save(output)
     if json:
         emit_json(

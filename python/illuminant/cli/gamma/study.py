@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from illuminant.cli.gamma.options import Bits, Colour, Gamma, Picture
+from illuminant.cli.gamma.options import Bits, Color, Gamma, Picture
 from illuminant.cli.options import Json
 from illuminant.cli.words import numbers
 
@@ -121,7 +121,7 @@ def banding(
     output: Picture,
     gamma: Gamma = "2.2",
     bits: Bits = "8,6",
-    colour: Colour = "0.8,0.55,0.35",
+    color: Color = "0.8,0.55,0.35",
     steps: Annotated[
         bool, typer.Option("--steps", help="Draw the steps of the darkest 5 % instead, to 16 bits.")
     ] = False,
@@ -150,7 +150,7 @@ def banding(
     if any(bit != int(bit) for bit in wanted) or len(wanted) > 4:
         raise UsageError(f"--bits {bits}: expected up to four whole numbers with commas between them.")
     whole = [int(bit) for bit in wanted]
-    surface = numbers(colour, "--colour")
+    surface = numbers(color, "--color")
     figure: Any = (
         staircase(whole, colour=surface, gamma=gamma) if steps else sheet(whole, colour=surface, gamma=gamma)
     )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from illuminant.cli.options import Json
+from illuminant.cli.options import Assume, Json
 from illuminant.cli.video.argument import Bands, Picture
 from illuminant.cli.words import numbers
 
@@ -74,6 +74,7 @@ def check(
             show_default=False,
         ),
     ] = None,
+    assume: Assume = None,
     json: Json = False,
 ) -> None:
     """Say what of a picture NTSC cannot carry, in percent of its pixels.
@@ -104,7 +105,7 @@ def check(
     for path in (marked, repair):
         if path is not None:
             frame_buffer.check_png(path)
-    buffer = frame_buffer.opened(picture)
+    buffer = frame_buffer.opened(picture, assume)
     values = buffer.values
     found = hazards.hazards(values, threshold=threshold, limits=bounds, bandwidth=band)
     masks = {name.replace(" ", "-"): mask for name, mask in found.items()}

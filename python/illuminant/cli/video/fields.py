@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from illuminant.cli.options import Assume
+
 __all__ = ["fields"]
 
 
@@ -31,6 +33,7 @@ def fields(
     full: Annotated[
         bool, typer.Option("--full", help="With --split: fields of full height, lines between filled in.")
     ] = False,
+    assume: Assume = None,
 ) -> None:
     """Weave the odd lines of one picture and the even lines of the next into a frame.
 
@@ -51,7 +54,7 @@ def fields(
     if split:
         for path in (second, third):
             frame_buffer.check_png(path)
-        frame = frame_buffer.opened(first)
+        frame = frame_buffer.opened(first, assume)
         parts = interlace.split(frame.codes)
         for parity, (path, part) in enumerate(zip((second, third), parts, strict=True)):
             text = {"Description": f"{('odd', 'even')[parity]} lines of a frame"}
@@ -63,7 +66,7 @@ def fields(
             note(f"{path}: {field.height} lines")
         return
     frame_buffer.check_png(third)
-    odd, even = frame_buffer.opened(first), frame_buffer.opened(second)
+    odd, even = frame_buffer.opened(first, assume), frame_buffer.opened(second, assume)
     if (odd.display, odd.bits) != (even.display, even.bits):
         one, other = (f"{p.display.name} of {p.bits} bits" for p in (odd, even))
         raise UsageError(f"The fields of a frame are alike: {first} is {one}, and {second} is {other}.")

@@ -6,12 +6,13 @@ from typing import Annotated
 
 import typer
 
+from illuminant.cli.options import Assume
 from illuminant.cli.video.argument import Out, Picture
 
 __all__ = ["components", "monochrome", "safe"]
 
 
-def monochrome(picture: Picture, out: Out) -> None:
+def monochrome(picture: Picture, out: Out, assume: Assume = None) -> None:
     """Write what a black and white set shows, and say which edges of colour it loses.
 
     \b
@@ -22,7 +23,7 @@ def monochrome(picture: Picture, out: Out) -> None:
     from illuminant.display.video import black_and_white, frame_buffer
 
     frame_buffer.check_png(out)
-    buffer = frame_buffer.opened(picture)
+    buffer = frame_buffer.opened(picture, assume)
     grey = black_and_white.preview(buffer.values)
     frame_buffer.with_values(buffer, grey, "luminance Y of NTSC").save(out)
     note(f"{out}: 0.299 R + 0.587 G + 0.114 B")
@@ -41,6 +42,7 @@ def safe(
         str,
         typer.Option("--standard", metavar="NAME", help="RP 27.3 (90 and 80 %) or ST 2046-1 (93 and 90 %)."),
     ] = "RP 27.3",
+    assume: Assume = None,
 ) -> None:
     """Draw safe action and safe title over a picture, in black or white, whichever is seen.
 
@@ -56,7 +58,7 @@ def safe(
     from illuminant.display.video import frame_buffer
 
     frame_buffer.check_png(out)
-    buffer = frame_buffer.opened(picture)
+    buffer = frame_buffer.opened(picture, assume)
     values = buffer.values
     drawn = safe_areas.overlay(values, standard=standard)
     frame_buffer.with_values(buffer, drawn, f"safe action and safe title, {standard}").save(out)
@@ -78,6 +80,7 @@ def components(
         bool,
         typer.Option("--bands", help="Instead the picture in grey through 4.2, 1.3 and 0.5 MHz."),
     ] = False,
+    assume: Assume = None,
 ) -> None:
     """Write four pictures on a sheet: the original, and its parts in Y, in I and in Q.
 
@@ -95,7 +98,7 @@ def components(
     from illuminant.display.video.standard import BANDWIDTH
 
     frame_buffer.check_png(out)
-    buffer = frame_buffer.opened(picture)
+    buffer = frame_buffer.opened(picture, assume)
     values = buffer.values
     if bands:
         grey = black_and_white.preview(values)

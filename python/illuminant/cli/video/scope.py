@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from illuminant.cli.options import Assume
 from illuminant.cli.video.argument import Bands, Picture
 
 __all__ = ["scope"]
@@ -28,6 +29,7 @@ def scope(
         float, typer.Option("--bars", metavar="PERCENT", help="Level of the bars whose targets are drawn.")
     ] = 75.0,
     bandwidth: Bands = None,
+    assume: Assume = None,
 ) -> None:
     """Show the composite signal of a picture, of one line or of all, as instruments do.
 
@@ -53,7 +55,7 @@ def scope(
         raise UsageError(f"--bars {bars:g}: expected a percentage above 0, up to 100.")
     band = argument.bandwidth(bandwidth)
     style.check_format(output)
-    values = frame_buffer.opened(picture).values
+    values = frame_buffer.opened(picture, assume).values
     if line is not None and not 0 <= line < len(values):
         raise UsageError(f"--line {line}: {picture} has rows 0 to {len(values) - 1}.")
     signal = encode(transmission.on_lines(values), bandwidth=band)

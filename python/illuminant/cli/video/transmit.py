@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from illuminant.cli.options import Assume
 from illuminant.cli.video.argument import Bands, Correct, Out, Picture
 
 __all__ = ["transmit"]
@@ -42,6 +43,7 @@ def transmit(
     beside: Annotated[
         bool, typer.Option("--beside", help="Write the original to the left of what is received.")
     ] = False,
+    assume: Assume = None,
 ) -> None:
     """Send a picture through NTSC: encode it, decode it, and write what a receiver shows.
 
@@ -60,7 +62,7 @@ def transmit(
     if lines is not None and not 2 <= lines <= 10_000:
         raise UsageError(f"--lines {lines}: expected 2 to 10000.")
     frame_buffer.check_png(out)
-    buffer = frame_buffer.opened(picture, colours=correct)
+    buffer = frame_buffer.opened(picture, assume)
     original = buffer.values
     ntsc = "NTSC 1953 D65"
     sent = transmission.corrected(original, buffer.display, ntsc) if correct else original

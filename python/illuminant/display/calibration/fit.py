@@ -237,7 +237,7 @@ def _start(readings: Readings) -> Array:
         own &= readings.codes[:, k] > 0.0
         try:
             gammas.append(fit_gamma(readings.codes[own, k], light[own, k]).gamma)
-        except UsageError:
+        except (DataError, UsageError):
             raise refuse(f"three levels or more of {name} or grey, between black and full") from None
     gamma = np.clip(gammas, 0.8, 5.0)
     return np.concatenate([primaries.ravel(), black, np.ones(3), gamma])

@@ -37,6 +37,9 @@ KINDS = ("analyzer", "full")
 MONTH, WEEK, HALF_YEAR = 30, 7, 182
 """Days."""
 
+LAST = datetime.date.max - datetime.timedelta(days=HALF_YEAR)
+"""The last date after which there is one to calibrate again."""
+
 TOLERATED, LARGE = 1.0, 5.0
 """ΔE00 that a monitor may move between two looks at it, and that calls for a full calibration."""
 
@@ -148,6 +151,8 @@ def _entry(line: str, file: str, number: int) -> Entry:
         date = datetime.date.fromisoformat(cells[0].strip())
     except ValueError:
         raise DataError(f"{cells[0]!r} is no date such as 1988-05-02.", file, number) from None
+    if date > LAST:
+        raise DataError(f"The date {date} is after {LAST}, and has no next one.", file, number)
     if cells[1].strip() not in KINDS:
         raise DataError(f"A kind is {' or '.join(KINDS)}, not {cells[1]!r}.", file, number)
     try:
@@ -188,6 +193,8 @@ def append(path: str | os.PathLike[str], entry: Entry, found: tuple[Triple, Trip
         raise UsageError(f"A kind is {' or '.join(KINDS)}, not {entry.kind!r}.")
     if not all(math.isfinite(value) and value > 0.0 for value in entry.white):
         raise UsageError("The white of a record needs X, Y and Z above 0.")
+    if entry.date > LAST:
+        raise UsageError(f"A calibration of {entry.date} has no next one: expected a date up to {LAST}.")
     if entries and entry.date < entries[-1].date:
         raise UsageError(f"The record goes on to {entries[-1].date}, after {entry.date}.")
     moved = drift(entries[-1], *(found or (entry.white, entry.low))) if entries else None

@@ -242,7 +242,13 @@ def verdict(
         after: the chart through the fitted description.
         white: x and y to which it should be set.
         luminance: of white to which it should be set, cd/m².
+
+    Raises:
+        UsageError: the luminance is not above 0.
     """
+    from illuminant.display.gamma.response import positive
+
+    luminance = positive(luminance, "The luminance of white to be set")
     found = greys(readings, white=white)
     lines: list[Criterion] = []
     table = readings.greys()

@@ -117,19 +117,16 @@ def write(
     # A wrong window is told before anything is written.
     patterns.draw("window", Screen(32, 32), window=window)
     folder = Path(folder)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise ImageError(f"{folder} cannot be made: {reason}.") from error
     table = folder / "readings.csv"
     if table.exists() and len(readings.read(table, empty=True).codes):
         raise DataError("This table has readings, and is not overwritten: name another folder.", str(table))
     frames: list[tuple[str, str]] = []
+    # All are drawn before any is written, so that a screen that one does not fit leaves no files.
+    drawn: list[tuple[Path, bytes]] = []
     if codes is None:
         for number, (file, name, options) in enumerate(ADJUST, 1):
             path = folder / f"adjust-{number:02d}-{file}.png"
-            patterns.save(path, name, screen, **options)
+            drawn.append((path, patterns.picture(name, screen, **options).encode()))
             step = next(
                 (i for i, one in enumerate(STEPS, 1) if any(p.split()[0] == name for p in one.patterns)), 1
             )
@@ -139,8 +136,15 @@ def write(
         whole = [round(value * screen.most) for value in code]
         path = folder / f"read-{number:03d}.png"
         color = tuple(screen.code(value) for value in whole)
-        patterns.save(path, "window", screen, color=color, window=window)
+        drawn.append((path, patterns.picture("window", screen, color=color, window=window).encode()))
         frames.append((path.name, f"reading {number}: {','.join(map(str, whole))}"))
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise ImageError(f"{folder} cannot be made: {reason}.") from error
+    for path, content in drawn:
+        output.write_bytes(path, content)
     output.write_bytes(table, readings.table(wanted, None, about, bits=screen.bits).encode())
     page = folder / "index.html"
     links = "".join(f'<li><a href="{file}">{html.escape(words)}</a>' for file, words in frames)

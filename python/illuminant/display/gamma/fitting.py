@@ -51,7 +51,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from illuminant.display.gamma.response import positive
 from illuminant.display.least_squares import minimised
-from illuminant.errors import UsageError, suggestion
+from illuminant.errors import DataError, UsageError, suggestion
 
 if TYPE_CHECKING:
     import numpy as np
@@ -153,6 +153,7 @@ def fit_gamma(
 
     Raises:
         UsageError: the arrays do not go together, too few readings are left, they do not rise, or a name is not known.
+        DataError: fewer than two readings above 0 differ, or they are so large that nothing finite fits them.
     """
     import numpy as np
 
@@ -162,6 +163,21 @@ def fit_gamma(
             f'There is no model "{model}": expected {", ".join(MODELS)}.{" " + hint if hint else ""}'
         )
     kind: Any = model
+    with np.errstate(all="ignore"):
+        return _fitted(kind, codes, luminances, cutoff, white_code, black)
+
+
+def _fitted(
+    model: Model,
+    codes: ArrayLike,
+    luminances: ArrayLike,
+    cutoff: float | None,
+    white_code: float | None,
+    black: float,
+) -> GammaFit:
+    """The fit; what is too large for it shows in the result."""
+    import numpy as np
+
     if not math.isfinite(black):
         raise UsageError(f"Black is a luminance, not {black}.")
     code, read = _checked(codes, luminances, black)
@@ -185,16 +201,22 @@ def fit_gamma(
         covariance[0, 0] += drift**2
         meter = 0.0
     else:
-        values, covariance, scatter, meter = _likeliest(kind, v[used], read[used])
-    if not (np.isfinite(values).all() and values[0] > 0):
+        values, covariance, scatter, meter = _likeliest(model, v[used], read[used])
+    if not np.isfinite(values).all():
+        raise DataError("No finite gamma fits these readings: they are too few or too large.")
+    if not values[0] > 0:
         raise UsageError("No gamma fits these readings: expected luminances that rise with the code.")
     deviations = np.sqrt(np.maximum(np.diag(covariance), 0.0))
-    fitted = _value_and_slopes(kind, v, values)[0] + black
+    if not (np.isfinite(deviations).all() and math.isfinite(scatter)):
+        raise DataError(
+            "The errors of a gamma of these readings are not finite: they are too few or too large."
+        )
+    fitted = _value_and_slopes(model, v, values)[0] + black
     with np.errstate(divide="ignore", invalid="ignore"):
         residuals = np.where(fitted > 0, (read + black) / fitted - 1.0, np.nan)
     names = _PARAMETERS[model]
     return GammaFit(
-        kind,
+        model,
         float(values[0]),
         float(deviations[0]),
         dict(zip(names, values.tolist(), strict=True)),
@@ -227,6 +249,8 @@ def _checked(codes: ArrayLike, luminances: ArrayLike, black: float) -> tuple[Flo
         raise UsageError(f"A code is 0 or above, not {code.min():g}.")
     if read.max() <= 0:
         raise UsageError(f"No luminance is above {f'black, {black:g}' if black else '0'}.")
+    if len(np.unique(read[read > 0])) < 2:
+        raise DataError("A gamma needs at least two readings above 0 that differ.")
     return code, read
 
 
@@ -304,7 +328,12 @@ def _likeliest(model: Model, v: Float64, read: Float64) -> tuple[Float64, Float6
     import numpy as np
 
     peak = float(read.max())
-    start = _line(v[(v > 0) & (read > 0.02 * peak)], read[(v > 0) & (read > 0.02 * peak)])[0]
+    lit = (v > 0) & (read > 0.02 * peak)
+    if len(np.unique(v[lit])) < 2:
+        lit = (v > 0) & (read > 0)
+    if len(np.unique(v[lit])) < 2:
+        raise DataError("A gamma needs at least two readings above 0, at two codes above 0.")
+    start = _line(v[lit], read[lit])[0]
     third = max(float(read.min()), 0.0) if model == "offset" else 1.0
     parameters = np.array([float(np.clip(start[0], 0.3, 6.0)), float(start[1]), third])
     bounds = (-0.5 * peak, 0.5 * peak) if model == "offset" else (0.3, 3.0)

@@ -160,19 +160,30 @@ def notes(name: str, screen: Screen | None = None, **given: Any) -> list[str]:
 
 
 def picture(name: str, screen: Screen | None = None, *, blue_only: bool = False, **given: Any) -> Picture:
-    """A pattern as the codes of its display.
+    """A pattern as the codes of its display, with texts that say how it was drawn.
 
     Args:
         name, screen, given: as for `draw`.
         blue_only: with red and green at 0, as a monitor shows it whose other guns are off.
     """
+    import json
+
     from illuminant.display.patterns import color_bars
     from illuminant.display.picture import Picture
 
     screen = screen or Screen(bits=_pattern(name).bits)
     values = draw(name, screen, **given)
+    settings = {
+        "pattern": name,
+        "size": [screen.width, screen.height],
+        "bits": screen.bits,
+        "display": screen.display.name,
+        **({"blue_only": True} if blue_only else {}),
+        **{word: list(value) if isinstance(value, tuple) else value for word, value in given.items()},
+    }
+    text = {"Description": f"test pattern {name}", "Settings": json.dumps(settings)}
     return Picture.of_values(
-        color_bars.blue_only(values) if blue_only else values, screen.display, screen.bits
+        color_bars.blue_only(values) if blue_only else values, screen.display, screen.bits, text
     )
 
 
@@ -190,16 +201,4 @@ def save(
         UsageError: name, options or values are not possible.
         ImageError, MachineError: the file cannot be written.
     """
-    import json
-
-    screen = screen or Screen(bits=_pattern(name).bits)
-    settings = {
-        "pattern": name,
-        "size": [screen.width, screen.height],
-        "bits": screen.bits,
-        "display": screen.display.name,
-        **({"blue_only": True} if blue_only else {}),
-        **{word: list(value) if isinstance(value, tuple) else value for word, value in given.items()},
-    }
-    text = {"Description": f"test pattern {name}", "Settings": json.dumps(settings)}
-    picture(name, screen, blue_only=blue_only, **given).save(path, text=text)
+    picture(name, screen, blue_only=blue_only, **given).save(path)

@@ -117,15 +117,15 @@ def chart_xyz(white: tuple[float, float], chart: str = "measured", light: str = 
     Args:
         white: x and y of the display's white.
         chart: a name of `CHARTS`.
-        light: the lamp on the measured charts: a name of the library.
+        light: the lamp on the measured charts: a name of the library, `2856K`, or a file.
 
     Raises:
-        UsageError: there is no such chart, or the light is no lamp.
-        DataError: there is no such light.
+        UsageError: there is no such chart.
+        DataError: there is no such light, or it is no lamp.
     """
     import numpy as np
 
-    from illuminant import color, spectra
+    from illuminant import color, spectrum_word
 
     if chart not in CHARTS:
         raise UsageError(f"A chart is {', '.join(CHARTS[:-1])} or {CHARTS[-1]}, not {chart!r}.")
@@ -134,12 +134,11 @@ def chart_xyz(white: tuple[float, float], chart: str = "measured", light: str = 
     if chart == "book adapted":
         # The white of the table itself, so that its greys become the display's.
         return np.asarray(color.adapt(np.array(BOOK), BOOK[18], color.white_xyz(white), method="Bradford"))
-    if spectra.load(light).quantity != "emission":
-        raise UsageError(f"The light on a chart is a lamp, and {light!r} is none.")
+    lamp = spectrum_word.light(light)
     curves = reflectances(chart)
     nm = curves[0].wavelengths_nm
     values = np.stack([np.ones_like(curves[0].values), *(curve.values for curve in curves)])
-    xyz = color.spectra_to_xyz(values, nm, illuminant=light)
+    xyz = color.spectra_to_xyz(values, nm, illuminant=lamp)
     return np.asarray(color.adapt(xyz[1:], xyz[0].tolist(), color.white_xyz(white), method="Bradford"))
 
 

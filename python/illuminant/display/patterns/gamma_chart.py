@@ -8,8 +8,8 @@ patches made for γ from 1 to 3, each on lines, the one that vanishes (seen from
 The display must show each pixel as one pixel; a screen that scales its picture makes grey of the lines. Horizontal
 lines are the default, for a CRT's beam does not follow a checker from pixel to pixel; `weave="checker"` is for others.
 
-A display whose curve is no power, as that of sRGB, matches the patch of the power that has 0.5 at the same code: 2.3
-for sRGB.
+A display whose curve is no power, as that of sRGB, matches the power that has 0.5 at the same code: 2.255 for sRGB
+(code 0.7354), so that the patch that vanishes is 2.2.
 
 Example:
     >>> round(matching_code(2.2), 4), round(matching_code(1.0), 4)

@@ -98,7 +98,8 @@ def subcarrier(lines: ArrayLike, frame: int = 0) -> tuple[Float64, Float64]:
     import numpy as np
 
     numbers = np.asarray(lines, np.int64)
-    start = (frame * _RASTER.lines + numbers - 1) * SAMPLES
+    # A frame has half a cycle over, so two of them are the period: numbers of any size stay small.
+    start = (int(frame) % 2 * _RASTER.lines + numbers - 1) * SAMPLES
     quarter = (start[:, None] + np.arange(SAMPLES)) % 4
     return np.array([0.0, 1.0, 0.0, -1.0])[quarter], np.array([1.0, 0.0, -1.0, 0.0])[quarter]
 
@@ -143,7 +144,7 @@ def band_limited_yiq(
     return np.stack(
         [
             filters.filtered(y, filters.low_pass(bandwidth.y), edge),
-            filters.filtered(i, filters.chroma_pass(bandwidth.i), edge),
+            filters.filtered(i, filters.i_pass(bandwidth.i), edge),
             filters.filtered(q, filters.chroma_pass(bandwidth.q), edge),
         ],
         axis=-1,

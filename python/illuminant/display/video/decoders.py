@@ -142,7 +142,7 @@ def demodulate(
     v = 2.0 * colour * (cosine * np.cos(turn) + sine * np.sin(turn))
     u = 2.0 * colour * (sine * np.cos(turn) - cosine * np.sin(turn))
     axes = np.radians(TURN_DEG)
-    i = filters.filtered(v * np.cos(axes) - u * np.sin(axes), filters.chroma_pass(bandwidth.i))
+    i = filters.filtered(v * np.cos(axes) - u * np.sin(axes), filters.i_pass(bandwidth.i))
     q = filters.filtered(v * np.sin(axes) + u * np.cos(axes), filters.chroma_pass(bandwidth.q))
     return i, q
 

@@ -1,7 +1,8 @@
 """A frame buffer: the code values of a PNG as they are stored, and a PNG of the same kind with others.
 
 Video takes code values as they are, so nothing is decoded here. Which display a file is for is kept, and stated again
-in what is written; a file that does not say is taken as screens take it, for sRGB, unless its colours are needed.
+in what is written; a file that does not say is not guessed at, but refused until its display is named. What a file says
+of how light became its codes (`Look`, `Exposure`) holds no more for other codes, and is not kept.
 
 Example:
     >>> import numpy as np
@@ -25,7 +26,12 @@ from illuminant.errors import ImageError, UsageError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-__all__ = ["check_png", "opened", "with_values"]
+    from illuminant.display.displays import Display
+
+__all__ = ["OUTDATED", "check_png", "opened", "with_values"]
+
+OUTDATED = ("Look", "Exposure", "Display")
+"""Text chunks that are true of the codes they came with, and of no others."""
 
 
 def check_png(path: str | os.PathLike[str]) -> Path:
@@ -57,18 +63,19 @@ def with_values(buffer: Picture, values: ArrayLike, what: str) -> Picture:
     array = np.asarray(values, np.float64)
     if np.isnan(array).any():
         raise UsageError("A frame buffer cannot hold what is not a number.")
-    return Picture.of_values(array, buffer.display, buffer.bits, buffer.text | {"Description": what})
+    text = {key: value for key, value in buffer.text.items() if key not in OUTDATED}
+    return Picture.of_values(array, buffer.display, buffer.bits, text | {"Description": what})
 
 
-def opened(path: str | os.PathLike[str], *, colours: bool = False) -> Picture:
+def opened(path: str | os.PathLike[str], assume: str | Display | None = None) -> Picture:
     """The code values of a PNG; a grey one has its value three times, and transparency is left out.
 
     Args:
         path: the file.
-        colours: whether it must say which display it is for.
+        assume: the display to take when the file does not say which it is for.
 
     Raises:
-        ImageError: there is no such file, it is no PNG, it is damaged, or it does not say what it must.
+        ImageError: there is no such file, it is no PNG, it is damaged, or it does not say its display.
 
     Example:
         >>> opened("none.png")
@@ -84,11 +91,4 @@ def opened(path: str | os.PathLike[str], *, colours: bool = False) -> Picture:
         raise ImageError(
             f"{path} holds light, not code values: make a PNG of it first, for the display it is meant for."
         )
-    if colours:
-        from illuminant import png
-
-        if png.read_header(path).display is None:
-            raise ImageError(
-                f"{path} does not say which display its numbers are for, so they cannot be corrected."
-            )
-    return Picture.open(path, assume="sRGB")
+    return Picture.open(path, assume)

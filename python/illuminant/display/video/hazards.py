@@ -74,7 +74,7 @@ def losses(rgb: ArrayLike, bandwidth: Bandwidth = BANDWIDTH) -> dict[str, Float6
 
     passes = (
         filters.low_pass(bandwidth.y),
-        filters.chroma_pass(bandwidth.i),
+        filters.i_pass(bandwidth.i),
         filters.chroma_pass(bandwidth.q),
     )
     found = {

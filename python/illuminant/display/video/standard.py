@@ -73,7 +73,7 @@ ACTIVE_US = 52.6
 
 @dataclass(frozen=True)
 class Bandwidth:
-    """Up to which frequencies Y, I and Q pass, in MHz; see `filters.low_pass` for what that means.
+    """Up to which frequencies Y, I and Q pass, in MHz; see `filters` for what that means.
 
     Raises:
         UsageError: Y is not from 0.1 to 6 MHz, or I or Q not from 0.1 to 1.4.
