@@ -310,6 +310,27 @@ def _rows(header: bytes) -> Iterator[tuple[int, int]]:
             yield rows, 1 + (columns * samples * depth + 7) // 8
 
 
+def _check_order(kinds: list[bytes]) -> None:
+    """Refuse what no decoder accepts: chunks that are there twice, unknown ones that matter, parted or late ones.
+
+    Raises:
+        ValueError: which it is.
+    """
+    for kind in dict.fromkeys(kinds):
+        name = kind.decode("latin-1")
+        if kind in (b"IHDR", b"PLTE", b"IEND") and kinds.count(kind) > 1:
+            raise ValueError(f"it has more than one {name} chunk")
+        if kind[:1].isupper() and kind not in (b"IHDR", b"PLTE", b"IDAT", b"IEND"):
+            raise ValueError(f"it has a chunk {name!r} that is unknown and may not be passed over")
+    if b"IDAT" not in kinds:
+        raise ValueError("its pixels are missing")
+    first = kinds.index(b"IDAT")
+    if set(kinds[first : first + kinds.count(b"IDAT")]) != {b"IDAT"}:
+        raise ValueError("other chunks part its pixels")
+    if b"PLTE" in kinds[first:]:
+        raise ValueError("its palette follows its pixels")
+
+
 def _check_pixels(content: bytes) -> None:
     """Refuse an image whose pixels are not all there: the library would speak of it on its own.
 
@@ -321,8 +342,12 @@ def _check_pixels(content: bytes) -> None:
     if kinds[0] != b"IHDR" or kinds[-1] != b"IEND":
         raise ValueError("it does not go from IHDR to IEND")
     rows = list(_rows(known[0][1]))
-    if known[0][1][9] == 3 and b"PLTE" not in kinds:
+    _check_order(kinds)
+    palette = next((data for kind, data in known if kind == b"PLTE"), None)
+    if palette is None and known[0][1][9] == 3:
         raise ValueError("its palette is missing")
+    if palette is not None and (len(palette) % 3 or not 0 < len(palette) <= 768):
+        raise ValueError("its palette is not of 1 to 256 colours")
     inflate = zlib.decompressobj()
     at = done = 0  # bytes before this pass, and in all
     expected = sum(count * length for count, length in rows)

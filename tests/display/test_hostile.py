@@ -135,6 +135,20 @@ def test_a_damaged_attribute_is_one_sentence(
         assert sentence in said and said.startswith("Error: ") and said.count("\n") == 1, said
 
 
+def test_bytes_that_are_no_text_are_one_sentence(tmp_path: Path) -> None:
+    """Every byte of the header in turn becomes one that UTF-8 does not have."""
+    content = write_exr(tmp_path / "a.exr", {"chromaticities": XYZ, "illuminant:unit": "cd/m2"}).read_bytes()
+    refused = 0
+    for at in range(4, 400):
+        (tmp_path / "b.exr").write_bytes(content[:at] + b"\xff" + content[at + 1 :])
+        try:
+            Image.open(tmp_path / "b.exr")
+        except (ImageError, MachineError) as error:
+            refused += 1
+            assert "\n" not in str(error)
+    assert refused > 50
+
+
 def test_infinite_pixels_of_another_system_are_read_without_a_warning(tmp_path: Path) -> None:
     pixels = np.ones((2, 2, 3))
     pixels[0, 0, 0] = np.inf
@@ -265,6 +279,30 @@ def test_missing_pixels_are_one_sentence_and_no_other(
     said = capfd.readouterr()
     assert sentence in said.err and said.err.startswith("Error: ") and said.err.count("\n") == 1, said.err
     assert not said.out
+
+
+PALETTE = (b"PLTE", bytes(6))
+
+
+@pytest.mark.parametrize(
+    ("extra", "sentence"),
+    [
+        ([(b"IHDR", HEADER)], "it has more than one IHDR chunk"),
+        ([(b"IEND", b"")], "it has more than one IEND chunk"),
+        ([PALETTE, PALETTE], "it has more than one PLTE chunk"),
+        ([(b"PLTE", bytes(7))], "its palette is not of 1 to 256 colours"),
+        ([(b"IDAT", b""), text("Title", "x")], "other chunks part its pixels"),
+        ([(b"IDAT", b""), PALETTE], "other chunks part its pixels"),
+        ([(b"ABCD", b"")], "it has a chunk 'ABCD' that is unknown"),
+    ],
+)
+def test_chunks_out_of_order_are_one_sentence_and_no_other(
+    extra: list[tuple[bytes, bytes]], sentence: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = write_png(tmp_path / "a.png", (b"sRGB", b"\0"), *extra)
+    assert run(["display", str(path), str(tmp_path / "b.png")]) == 2
+    said = capfd.readouterr().err
+    assert sentence in said and said.startswith("Error: ") and said.count("\n") == 1, said
 
 
 @pytest.mark.parametrize(("mode", "size"), [("1", (13, 5)), ("L", (3, 3)), ("P", (9, 4)), ("RGBA", (17, 9))])
