@@ -356,7 +356,11 @@ def _check_pixels(content: bytes) -> None:
     for kind, data in known:
         if kind != b"IDAT":
             continue
-        while data and done < expected:
+        while data and not inflate.eof:
+            if done == expected:
+                if inflate.decompress(data, 1):
+                    raise ValueError(f"its pixels have more than {expected:,} bytes")
+                break  # what remained of the chunk is the end of the stream
             piece = inflate.decompress(data, min(_PIECE, at + count * length - done))
             data = inflate.unconsumed_tail
             if not piece:
@@ -370,6 +374,8 @@ def _check_pixels(content: bytes) -> None:
                 count, length = next(passes)
     if done < expected:
         raise ValueError(f"its pixels have {done:,} bytes instead of {expected:,}")
+    if not inflate.eof:
+        raise ValueError("its pixels end too soon")
 
 
 def decode(

@@ -250,6 +250,9 @@ HEADER = struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0)
     [
         (HEADER, zlib.compress(bytes(10)), "its pixels have 10 bytes instead of 14"),
         (HEADER, zlib.compress(bytes(14))[:-9], "its pixels have"),
+        (HEADER, zlib.compress(bytes(14))[:-2], "its pixels end too soon"),
+        (HEADER, zlib.compress(bytes(15)), "its pixels have more than 14 bytes"),
+        (HEADER, zlib.compress(bytes(14))[:-1] + b"\xff", "incorrect data check"),
         (HEADER, b"", "its pixels have 0 bytes"),
         (HEADER, b"abc", "incorrect header check"),
         (HEADER, zlib.compress(b"\7" + bytes(13)), "its pixels have an unknown filter"),
@@ -303,6 +306,14 @@ def test_chunks_out_of_order_are_one_sentence_and_no_other(
     assert run(["display", str(path), str(tmp_path / "b.png")]) == 2
     said = capfd.readouterr().err
     assert sentence in said and said.startswith("Error: ") and said.count("\n") == 1, said
+
+
+@pytest.mark.parametrize("length", [1, 2, 5, 8191])
+def test_pixels_in_many_chunks_are_read(length: int, tmp_path: Path) -> None:
+    data = zlib.compress((b"\0" + bytes((100, 100, 120)) * 2) * 2)
+    parts = [(b"IDAT", data[at : at + length]) for at in range(0, len(data), length)]
+    path = write_png(tmp_path / "a.png", *parts, pixels=b"")
+    assert (Picture.open(path, "sRGB").codes == (100, 100, 120)).all()
 
 
 @pytest.mark.parametrize(("mode", "size"), [("1", (13, 5)), ("L", (3, 3)), ("P", (9, 4)), ("RGBA", (17, 9))])
