@@ -22,7 +22,7 @@ from illuminant import machine
 from illuminant.core import core
 from illuminant.display import displays
 from illuminant.display.displays import Display
-from illuminant.errors import DataError, ImageError, UsageError
+from illuminant.errors import DataError, ImageError, MachineError, UsageError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -57,7 +57,7 @@ LARGEST_PROFILE = 1 << 24
 """Bytes of the largest ICC profile that is read from a PNG."""
 
 LARGEST_TEXT = 1 << 24
-"""Bytes of the longest text that is read from a PNG."""
+"""Bytes of the longest text that is read from a PNG, and letters of all its texts together."""
 
 BYTES_A_PIXEL = 24
 """Memory that a pixel takes while it is decoded: four samples of 16 bits, their copy, and the rounding to its bits."""
@@ -215,19 +215,23 @@ def read_header(path: str | os.PathLike[str]) -> Header:
 
     Raises:
         ImageError: the file is not there or is no whole PNG.
+        MachineError: the file does not fit into the memory that is free.
     """
     return _header(_content(path), path)
 
 
 def _content(path: str | os.PathLike[str]) -> bytes:
     try:
+        machine.check_file(path, Path(path).stat().st_size)
         return Path(path).read_bytes()
+    except MachineError:
+        raise
     except OSError as error:
         raise ImageError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
 
 
 def _header(content: bytes, path: str | os.PathLike[str]) -> Header:
-    width = height = depth = bits = 0
+    width = height = depth = bits = letters = 0
     found: dict[bytes, bytes] = {}
     text: dict[str, str] = {}
     try:
@@ -239,6 +243,9 @@ def _header(content: bytes, path: str | os.PathLike[str]) -> Header:
             elif kind in (b"tEXt", b"zTXt", b"iTXt"):
                 name, value = _text(kind, data)
                 text[name] = value
+                letters += len(value)
+                if letters > LARGEST_TEXT:
+                    raise ValueError(f"its texts are longer than {LARGEST_TEXT:,} letters")
             else:
                 found.setdefault(kind, data)
         display = _stated(text, found)

@@ -242,6 +242,14 @@ def test_a_text_that_inflates_without_end_is_refused(tmp_path: Path) -> None:
             Picture.open(write_png(tmp_path / "a.png", chunk))
 
 
+def test_many_texts_that_inflate_are_refused(tmp_path: Path) -> None:
+    packed = zlib.compress(bytes(1 << 23))
+    chunks = [(b"zTXt", b"Comment %d\0\0" % number + packed) for number in range(3)]
+    assert len(Picture.open(write_png(tmp_path / "a.png", *chunks[:2]), "sRGB").text) == 2
+    with pytest.raises(ImageError, match=r"its texts are longer than 16,777,216 letters"):
+        Picture.open(write_png(tmp_path / "a.png", *chunks), "sRGB")
+
+
 HEADER = struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0)
 
 
