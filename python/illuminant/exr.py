@@ -28,6 +28,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -225,7 +226,7 @@ def read(path: str | Path) -> Contents:
     Returns:
         Its contents; a file with luminance only is given three equal channels. What the data window leaves of the
         display window is 0, and what lies outside the display window is left out. An exposure or a luminance of white
-        that is no positive number is left out as well.
+        that is no positive number is left out as well, and a unit that is no text.
 
     Raises:
         ImageError: the file is not there, is no EXR, has no colour or has it as luminance and chroma, or states its
@@ -238,8 +239,7 @@ def read(path: str | Path) -> Contents:
     _check_magic(path)
     file = oiio.ImageInput.open(str(path))
     if file is None:
-        reason = " ".join((oiio.geterror() or "not a readable image").split()).rstrip(".")
-        raise ImageError(f"{path} cannot be read: {reason}.")
+        raise ImageError(f"{path} cannot be read: {_reason(oiio.geterror)}.")
     try:
         spec = file.spec()
         size = max(spec.width * spec.height, spec.full_width * spec.full_height)
@@ -251,13 +251,15 @@ def read(path: str | Path) -> Contents:
         machine.check_file(path, BYTES_A_VALUE * values)
         pixels = file.read_image(oiio.FLOAT)
         if pixels is None:
-            raise ImageError(f"{path} cannot be read: {' '.join(file.geterror().split()).rstrip('.')}.")
+            raise ImageError(f"{path} cannot be read: {_reason(file.geterror)}.")
     finally:
         file.close()
     pixels = _in_display_window(np.asarray(pixels).reshape(spec.height, spec.width, spec.nchannels), spec)
     index = {name: i for i, name in enumerate(names)}
+    with np.errstate(invalid="ignore"):  # a signalling NaN is as good as another
+        rgb = pixels[..., [index[name] for name in colour]].astype(np.float64)
     contents = Contents(
-        rgb=pixels[..., [index[name] for name in colour]].astype(np.float64),
+        rgb=rgb,
         chromaticities=XYZ if colour[0] == "X" else _chromaticities(attributes.get("chromaticities"), path),
         half=spec.format == oiio.HALF,
     )
@@ -265,8 +267,13 @@ def read(path: str | Path) -> Contents:
     for key, value in attributes.items():
         if key == "whiteLuminance" or (key.startswith("illuminant:") and key != "illuminant:toXYZ"):
             contents.attributes[key.removeprefix("illuminant:")] = value
-    for key in ("exposure", "whiteLuminance"):
-        if key in contents.attributes and not _positive(contents.attributes[key]):
+    for key, fits in (
+        ("exposure", _positive),
+        ("whiteLuminance", _positive),
+        ("unit", _words),
+        ("rgbSystem", _words),
+    ):
+        if key in contents.attributes and not fits(contents.attributes[key]):
             del contents.attributes[key]
     if isinstance(contents.attributes.get("settings"), str):
         try:
@@ -338,6 +345,19 @@ def _in_display_window(pixels: Array, spec: Any) -> Array:
 def _positive(value: Any) -> bool:
     """Whether this is a positive number, and finite."""
     return isinstance(value, (int, float)) and 0 < value < math.inf
+
+
+def _words(value: Any) -> bool:
+    """Whether this is a text."""
+    return isinstance(value, str)
+
+
+def _reason(ask: Callable[[], str]) -> str:
+    """What the library says of its failure, which may quote bytes that are no text."""
+    try:
+        return " ".join(ask().split()).rstrip(".") or "it is damaged"
+    except UnicodeDecodeError:
+        return "its header is damaged"
 
 
 def _chromaticities(values: Any, path: str | Path) -> tuple[float, ...] | None:

@@ -22,7 +22,7 @@ from illuminant import machine
 from illuminant.core import core
 from illuminant.display import displays
 from illuminant.display.displays import Display
-from illuminant.errors import DataError, ImageError, UsageError
+from illuminant.errors import DataError, ImageError, MachineError, UsageError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -57,7 +57,7 @@ LARGEST_PROFILE = 1 << 24
 """Bytes of the largest ICC profile that is read from a PNG."""
 
 LARGEST_TEXT = 1 << 24
-"""Bytes of the longest text that is read from a PNG."""
+"""Bytes of the longest text that is read from a PNG, and letters of all its texts together."""
 
 BYTES_A_PIXEL = 24
 """Memory that a pixel takes while it is decoded: four samples of 16 bits, their copy, and the rounding to its bits."""
@@ -215,19 +215,23 @@ def read_header(path: str | os.PathLike[str]) -> Header:
 
     Raises:
         ImageError: the file is not there or is no whole PNG.
+        MachineError: the file does not fit into the memory that is free.
     """
     return _header(_content(path), path)
 
 
 def _content(path: str | os.PathLike[str]) -> bytes:
     try:
+        machine.check_file(path, Path(path).stat().st_size)
         return Path(path).read_bytes()
+    except MachineError:
+        raise
     except OSError as error:
         raise ImageError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
 
 
 def _header(content: bytes, path: str | os.PathLike[str]) -> Header:
-    width = height = depth = bits = 0
+    width = height = depth = bits = letters = 0
     found: dict[bytes, bytes] = {}
     text: dict[str, str] = {}
     try:
@@ -239,6 +243,9 @@ def _header(content: bytes, path: str | os.PathLike[str]) -> Header:
             elif kind in (b"tEXt", b"zTXt", b"iTXt"):
                 name, value = _text(kind, data)
                 text[name] = value
+                letters += len(value)
+                if letters > LARGEST_TEXT:
+                    raise ValueError(f"its texts are longer than {LARGEST_TEXT:,} letters")
             else:
                 found.setdefault(kind, data)
         display = _stated(text, found)
@@ -331,6 +338,27 @@ def _rows(header: bytes) -> Iterator[tuple[int, int]]:
             yield rows, 1 + (columns * samples * depth + 7) // 8
 
 
+def _check_order(kinds: list[bytes]) -> None:
+    """Refuse what no decoder accepts: chunks that are there twice, unknown ones that matter, parted or late ones.
+
+    Raises:
+        ValueError: which it is.
+    """
+    for kind in dict.fromkeys(kinds):
+        name = kind.decode("latin-1")
+        if kind in (b"IHDR", b"PLTE", b"IEND") and kinds.count(kind) > 1:
+            raise ValueError(f"it has more than one {name} chunk")
+        if kind[:1].isupper() and kind not in (b"IHDR", b"PLTE", b"IDAT", b"IEND"):
+            raise ValueError(f"it has a chunk {name!r} that is unknown and may not be passed over")
+    if b"IDAT" not in kinds:
+        raise ValueError("its pixels are missing")
+    first = kinds.index(b"IDAT")
+    if set(kinds[first : first + kinds.count(b"IDAT")]) != {b"IDAT"}:
+        raise ValueError("other chunks part its pixels")
+    if b"PLTE" in kinds[first:]:
+        raise ValueError("its palette follows its pixels")
+
+
 def _check_pixels(content: bytes) -> None:
     """Refuse an image whose pixels are not all there: the library would speak of it on its own.
 
@@ -342,8 +370,12 @@ def _check_pixels(content: bytes) -> None:
     if kinds[0] != b"IHDR" or kinds[-1] != b"IEND":
         raise ValueError("it does not go from IHDR to IEND")
     rows = list(_rows(known[0][1]))
-    if known[0][1][9] == 3 and b"PLTE" not in kinds:
+    _check_order(kinds)
+    palette = next((data for kind, data in known if kind == b"PLTE"), None)
+    if palette is None and known[0][1][9] == 3:
         raise ValueError("its palette is missing")
+    if palette is not None and (len(palette) % 3 or not 0 < len(palette) <= 768):
+        raise ValueError("its palette is not of 1 to 256 colours")
     inflate = zlib.decompressobj()
     at = done = 0  # bytes before this pass, and in all
     expected = sum(count * length for count, length in rows)
@@ -352,7 +384,11 @@ def _check_pixels(content: bytes) -> None:
     for kind, data in known:
         if kind != b"IDAT":
             continue
-        while data and done < expected:
+        while data and not inflate.eof:
+            if done == expected:
+                if inflate.decompress(data, 1):
+                    raise ValueError(f"its pixels have more than {expected:,} bytes")
+                break  # what remained of the chunk is the end of the stream
             piece = inflate.decompress(data, min(_PIECE, at + count * length - done))
             data = inflate.unconsumed_tail
             if not piece:
@@ -366,6 +402,8 @@ def _check_pixels(content: bytes) -> None:
                 count, length = next(passes)
     if done < expected:
         raise ValueError(f"its pixels have {done:,} bytes instead of {expected:,}")
+    if not inflate.eof:
+        raise ValueError("its pixels end too soon")
 
 
 def decode(

@@ -135,6 +135,20 @@ def test_a_damaged_attribute_is_one_sentence(
         assert sentence in said and said.startswith("Error: ") and said.count("\n") == 1, said
 
 
+def test_bytes_that_are_no_text_are_one_sentence(tmp_path: Path) -> None:
+    """Every byte of the header in turn becomes one that UTF-8 does not have."""
+    content = write_exr(tmp_path / "a.exr", {"chromaticities": XYZ, "illuminant:unit": "cd/m2"}).read_bytes()
+    refused = 0
+    for at in range(4, 400):
+        (tmp_path / "b.exr").write_bytes(content[:at] + b"\xff" + content[at + 1 :])
+        try:
+            Image.open(tmp_path / "b.exr")
+        except (ImageError, MachineError) as error:
+            refused += 1
+            assert "\n" not in str(error)
+    assert refused > 50
+
+
 def test_infinite_pixels_of_another_system_are_read_without_a_warning(tmp_path: Path) -> None:
     pixels = np.ones((2, 2, 3))
     pixels[0, 0, 0] = np.inf
@@ -228,6 +242,14 @@ def test_a_text_that_inflates_without_end_is_refused(tmp_path: Path) -> None:
             Picture.open(write_png(tmp_path / "a.png", chunk))
 
 
+def test_many_texts_that_inflate_are_refused(tmp_path: Path) -> None:
+    packed = zlib.compress(bytes(1 << 23))
+    chunks = [(b"zTXt", b"Comment %d\0\0" % number + packed) for number in range(3)]
+    assert len(Picture.open(write_png(tmp_path / "a.png", *chunks[:2]), "sRGB").text) == 2
+    with pytest.raises(ImageError, match=r"its texts are longer than 16,777,216 letters"):
+        Picture.open(write_png(tmp_path / "a.png", *chunks), "sRGB")
+
+
 HEADER = struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0)
 
 
@@ -236,6 +258,9 @@ HEADER = struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0)
     [
         (HEADER, zlib.compress(bytes(10)), "its pixels have 10 bytes instead of 14"),
         (HEADER, zlib.compress(bytes(14))[:-9], "its pixels have"),
+        (HEADER, zlib.compress(bytes(14))[:-2], "its pixels end too soon"),
+        (HEADER, zlib.compress(bytes(15)), "its pixels have more than 14 bytes"),
+        (HEADER, zlib.compress(bytes(14))[:-1] + b"\xff", "incorrect data check"),
         (HEADER, b"", "its pixels have 0 bytes"),
         (HEADER, b"abc", "incorrect header check"),
         (HEADER, zlib.compress(b"\7" + bytes(13)), "its pixels have an unknown filter"),
@@ -265,6 +290,38 @@ def test_missing_pixels_are_one_sentence_and_no_other(
     said = capfd.readouterr()
     assert sentence in said.err and said.err.startswith("Error: ") and said.err.count("\n") == 1, said.err
     assert not said.out
+
+
+PALETTE = (b"PLTE", bytes(6))
+
+
+@pytest.mark.parametrize(
+    ("extra", "sentence"),
+    [
+        ([(b"IHDR", HEADER)], "it has more than one IHDR chunk"),
+        ([(b"IEND", b"")], "it has more than one IEND chunk"),
+        ([PALETTE, PALETTE], "it has more than one PLTE chunk"),
+        ([(b"PLTE", bytes(7))], "its palette is not of 1 to 256 colours"),
+        ([(b"IDAT", b""), text("Title", "x")], "other chunks part its pixels"),
+        ([(b"IDAT", b""), PALETTE], "other chunks part its pixels"),
+        ([(b"ABCD", b"")], "it has a chunk 'ABCD' that is unknown"),
+    ],
+)
+def test_chunks_out_of_order_are_one_sentence_and_no_other(
+    extra: list[tuple[bytes, bytes]], sentence: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = write_png(tmp_path / "a.png", (b"sRGB", b"\0"), *extra)
+    assert run(["display", str(path), str(tmp_path / "b.png")]) == 2
+    said = capfd.readouterr().err
+    assert sentence in said and said.startswith("Error: ") and said.count("\n") == 1, said
+
+
+@pytest.mark.parametrize("length", [1, 2, 5, 8191])
+def test_pixels_in_many_chunks_are_read(length: int, tmp_path: Path) -> None:
+    data = zlib.compress((b"\0" + bytes((100, 100, 120)) * 2) * 2)
+    parts = [(b"IDAT", data[at : at + length]) for at in range(0, len(data), length)]
+    path = write_png(tmp_path / "a.png", *parts, pixels=b"")
+    assert (Picture.open(path, "sRGB").codes == (100, 100, 120)).all()
 
 
 @pytest.mark.parametrize(("mode", "size"), [("1", (13, 5)), ("L", (3, 3)), ("P", (9, 4)), ("RGBA", (17, 9))])
