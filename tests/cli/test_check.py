@@ -85,7 +85,7 @@ def test_info_says_what_to_do_about_what_was_not_found(
 
 def test_info_of_what_is_no_image(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["info", str(scene)]) == 2
-    assert capsys.readouterr().err == f"Error: {scene} cannot be read: only .exr and .png are.\n"
+    assert capsys.readouterr().err == f"Error: {scene} cannot be read: only .exr, .png and .rle are.\n"
 
 
 @pytest.mark.parametrize(
