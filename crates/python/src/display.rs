@@ -58,6 +58,8 @@ fn each<'py>(
     Ok(result.to_pyarray(py))
 }
 
+// `from_xyz` is the field's word for XYZ to the display's light, no constructor.
+#[allow(clippy::wrong_self_convention)]
 #[pymethods]
 impl PyDisplay {
     #[new]
