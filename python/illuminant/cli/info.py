@@ -15,7 +15,9 @@ __all__ = ["info"]
 def info(
     image: Annotated[
         Path | None,
-        typer.Argument(metavar="IMAGE", help="Show the header of this .exr, .png or .rle.", show_default=False),
+        typer.Argument(
+            metavar="IMAGE", help="Show the header of this .exr, .png or .rle.", show_default=False
+        ),
     ] = None,
     json: Json = False,
 ) -> None:
