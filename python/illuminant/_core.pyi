@@ -294,6 +294,9 @@ class Display:
     def map_gamut(self, light: NDArray[np.float64], method: str) -> NDArray[np.float64]:
         """Linear RGB (..., 3) brought into the gamut, flat."""
 
+    def oklab(self, light: NDArray[np.float64]) -> NDArray[np.float64]:
+        """L, a, b of Oklab of linear RGB (..., 3), flat."""
+
     def apply_tone(self, light: NDArray[np.float64], operator: str) -> NDArray[np.float64]:
         """Linear RGB (..., 3) after a tone operator, flat."""
 

@@ -84,7 +84,7 @@ LONG = "a" * 5000
         ("render ball.toml --samples many", "--samples: expected a whole number (see"),
         ("render ball.toml --samples", "Option '--samples' requires an argument"),
         ("render ball.toml --exposure bright", "--exposure: expected a number (see"),
-        ("render ball.toml --exposure nan", "An exposure is a positive number, not nan."),
+        ("render ball.toml --exposure nan", "--exposure nan: expected a positive number."),
         ("render ball.toml --size 0x0", "--size 0x0: expected width and height"),
         ("render ball.toml --threads -1", "--threads -1: expected a whole number from 0"),
         (

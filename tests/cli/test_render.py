@@ -181,7 +181,7 @@ def test_one_path_is_followed_again(scene: Path, inside: Command) -> None:
         (["ball.toml", "-o", "a.jpg"], "saved as .exr"),
         (["ball.toml", "--size", "1000000000x1000000000"], "that is 1e+18 pixels"),
         (["ball.toml", "--samples", "0"], "--samples 0: expected a whole number"),
-        (["ball.toml", "--exposure", "-1"], "An exposure is a positive number, not -1."),
+        (["ball.toml", "--exposure", "-1"], "--exposure -1: expected a positive number."),
         (["ball.toml", "--rgb", "CMYK"], "no RGB system 'CMYK'"),
         (["ball.toml", "--bits", "17"], "1 to 16 bits"),
         (["ball.toml", "--display", "CRT"], "There is no display 'CRT': known are sRGB"),

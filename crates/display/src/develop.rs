@@ -224,13 +224,14 @@ impl Development {
     fn one_by_one<T: Sample>(&self, xyz: &[T], whole: f64, block: &mut Block) -> Met {
         let every = self.tone != Tone::None || self.gamut.moves_all();
         let ootf = self.display.ootf_gamma().is_some();
+        let floor = self.floor();
         let mut met = Met::default();
         for (i, pixel) in xyz.chunks_exact(3).enumerate() {
-            let asked = self.light([pixel[0], pixel[1], pixel[2]].map(Sample::double)).map(|v| v * whole);
-            let found = kind(asked.map(|v| v as f32), self.floor());
-            if found == Met::default() && !every && !ootf {
+            if !every && !ootf && kind([block[0][i], block[1][i], block[2][i]], floor) == Met::default() {
                 continue;
             }
+            let asked = self.light([pixel[0], pixel[1], pixel[2]].map(Sample::double)).map(|v| v * whole);
+            let found = kind(asked.map(|v| v as f32), floor);
             met = met.with(found);
             let mut rgb = if found.not_finite > 0 {
                 [0.0; 3]

@@ -1,7 +1,7 @@
 //! `display`: displays, developing for them, gamut methods and tone operators, and PNG.
 
 use crate::arrays::{check_last_axis, numbers, readable};
-use illuminant_color::{RgbSystem, Transfer, Triple};
+use illuminant_color::{Oklab, RgbSystem, Transfer, Triple};
 use illuminant_display::{
     Code, Development, Display, Dither, Gamut, GamutMap, Met, Pixels, PngTags, Response, Sample, Tone,
     develop as develop_image, develop_codes, encode_png as encode,
@@ -116,6 +116,13 @@ impl PyDisplay {
         each(py, light, |v| map.map(v))
     }
 
+    fn oklab<'py>(&self, py: Python<'py>, light: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let system = self.0.system();
+        let oklab = Oklab::new(system.to_xyz([1.0; 3]))
+            .ok_or_else(|| PyValueError::new_err("its white has a cone response of zero"))?;
+        each(py, light, |v| oklab.from_xyz(system.to_xyz(v)))
+    }
+
     fn apply_tone<'py>(
         &self,
         py: Python<'py>,
@@ -138,8 +145,7 @@ impl PyDisplay {
         tone: &str,
         gamut: &str,
     ) -> PyResult<(Bound<'py, PyArray3<f32>>, Bound<'py, PyDict>)> {
-        let development =
-            Development::new(self.0.clone(), exposure, reference, self::tone(tone)?, self::gamut(gamut)?);
+        let development = self.development(exposure, reference, tone, gamut)?;
         if xyz.cast::<numpy::PyArrayDyn<f32>>().is_ok() {
             developed::<f32>(py, xyz, &development)
         } else {
@@ -161,8 +167,7 @@ impl PyDisplay {
         dither: &str,
         seed: u64,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>)> {
-        let development =
-            Development::new(self.0.clone(), exposure, reference, self::tone(tone)?, self::gamut(gamut)?);
+        let development = self.development(exposure, reference, tone, gamut)?;
         let dither = Dither::named(dither).map_err(|e| PyValueError::new_err(e.to_string()))?.with_seed(seed);
         let single = xyz.cast::<numpy::PyArrayDyn<f32>>().is_ok();
         match (single, bits <= 8) {
@@ -208,6 +213,13 @@ fn told(py: Python<'_>, met: Met) -> PyResult<Bound<'_, PyDict>> {
     told.set_item("above", met.above)?;
     told.set_item("not_finite", met.not_finite)?;
     Ok(told)
+}
+
+impl PyDisplay {
+    fn development(&self, exposure: f64, reference: f64, tone: &str, gamut: &str) -> PyResult<Development> {
+        let (tone, gamut) = (self::tone(tone)?, self::gamut(gamut)?);
+        Ok(Development::new(self.0.clone(), exposure, reference, tone, gamut))
+    }
 }
 
 fn developed<'py, T: Sample + Element>(

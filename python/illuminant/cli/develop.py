@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from illuminant.cli.look import asked_look
 from illuminant.cli.options import Assume, Bits, DisplayName, DitherName, GamutName, Json, ToneName, Transfer
 
 if TYPE_CHECKING:
@@ -112,14 +113,13 @@ def develop(
     """
     from illuminant.cli.report import emit_json
     from illuminant.display import developing
-    from illuminant.display.look import Look
     from illuminant.errors import UsageError
     from illuminant.image import Image, check_output
 
     check_output(output)
     if regular is not None and output.suffix.lower() != ".exr":
         raise UsageError(f"--regular {regular:g}: a PNG holds no spectra; name an .exr to be written.")
-    look = Look(display or "sRGB", exposure, transfer, tone, gamut, dither, bits, seed)
+    look = asked_look(display, exposure, transfer, tone, gamut, dither, bits, seed)
     source = Image.open(image, assume)
     names = developing.lamps_of(source)
     lamps = dict(_pair("--lamp", word, names) for word in lamp or [])

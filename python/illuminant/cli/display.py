@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from illuminant.cli.look import asked_look
 from illuminant.cli.options import (
     Assume,
     Bits,
@@ -83,7 +84,6 @@ def display(
 
     from illuminant.cli.report import emit_json, note
     from illuminant.display.dither import quantise
-    from illuminant.display.look import Look
     from illuminant.display.ocio import Config
     from illuminant.display.picture import check_name
     from illuminant.errors import UsageError
@@ -107,7 +107,7 @@ def display(
         name = name or (found.name if found else None)
     elif ocio_display or view:
         raise UsageError("--ocio-display and --view go with --ocio.")
-    look = Look(name or "sRGB", exposure, transfer, tone, gamut, dither, bits, seed, pipeline)
+    look = asked_look(name, exposure, transfer, tone, gamut, dither, bits, seed, pipeline)
     opened = Image.open(image, assume)
     chosen = False
     if absolute:

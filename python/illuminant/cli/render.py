@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from illuminant.cli.look import asked_look
 from illuminant.cli.options import (
     Adaptive,
     Bits,
@@ -29,7 +30,6 @@ from illuminant.cli.options import (
 )
 
 if TYPE_CHECKING:
-    from illuminant.display.look import Look
     from illuminant.image import Image, Saved
     from illuminant.rendering import Job
 
@@ -329,7 +329,7 @@ def render(
     if pixel is None:
         for path in paths:
             check_output(path)
-    look = _look(exposure, display, transfer, tone, gamut, dither, bits, seed or 0, pipeline)
+    look = asked_look(display, exposure, transfer, tone, gamut, dither, bits, seed or 0, pipeline)
     if rgb is not None:
         from illuminant import rgb_system
 
@@ -442,23 +442,6 @@ def _save(image: Image, path: Path, *, half: bool, **look: Any) -> Saved:
         except (ImageError, MachineError, OSError):
             raise error from None
         raise type(error)(f"{str(error).rstrip('.')}; the image is kept as {kept}.") from error
-
-
-def _look(
-    exposure: float | None,
-    display: str | None,
-    transfer: str | None,
-    tone: str,
-    gamut: str | None,
-    dither: str,
-    bits: int,
-    seed: int,
-    pipeline: str,
-) -> Look:
-    """The look that the options ask for; what cannot be is refused before the work."""
-    from illuminant.display.look import Look
-
-    return Look(display or "sRGB", exposure, transfer, tone, gamut, dither, bits, seed, pipeline)
 
 
 class _Stop:

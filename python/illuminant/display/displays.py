@@ -192,6 +192,15 @@ class Display:
         """Linear RGB (..., 3) brought into the gamut by a method of `illuminant.display.gamut`."""
         return self._each(lambda values: self._core.map_gamut(values, method), linear)
 
+    def oklab(self, linear: ArrayLike) -> Array:
+        """L, a, b of Oklab (Ottosson 2020) of linear RGB (..., 3), beside the display's white.
+
+        Example:
+            >>> (named("Display P3").oklab([1.0, 1.0, 1.0]).round(6) + 0.0).tolist()
+            [1.0, 0.0, 0.0]
+        """
+        return self._each(self._core.oklab, linear)
+
     def apply_tone(self, linear: ArrayLike, operator: str) -> Array:
         """Linear RGB (..., 3) after a tone operator of `illuminant.display.tone`."""
         return self._each(lambda values: self._core.apply_tone(values, operator), linear)

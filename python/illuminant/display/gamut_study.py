@@ -145,19 +145,7 @@ def _hue(linear: Array, display: displays.Display) -> tuple[Array, Array]:
     """Hue (degrees) and chroma in Oklab."""
     import numpy as np
 
-    to_lms = np.array(
-        [
-            [0.8189330101, 0.3618667424, -0.1288597137],
-            [0.0329845436, 0.9293118715, 0.0361456387],
-            [0.0482003018, 0.2643662691, 0.6338517070],
-        ]
-    )
-    to_ab = np.array(
-        [[1.9779984951, -2.4285922050, 0.4505937099], [0.0259040371, 0.7827717662, -0.8086757660]]
-    )
-    cones = (linear @ display.to_xyz_matrix.T) @ to_lms.T
-    roots = np.cbrt(cones / (display.to_xyz_matrix.sum(axis=1) @ to_lms.T))
-    a, b = np.moveaxis(roots @ to_ab.T, -1, 0)
+    a, b = np.moveaxis(display.oklab(linear)[..., 1:], -1, 0)
     return np.degrees(np.arctan2(b, a)), np.hypot(a, b)
 
 

@@ -15,6 +15,7 @@ Example:
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -96,7 +97,7 @@ class Look:
         dither.check(self.dither)
         _ = self.target
 
-    @property
+    @functools.cached_property
     def target(self) -> displays.Display:
         """The display, with the response asked for."""
         found = displays.named(self.display)
