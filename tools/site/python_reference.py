@@ -1,0 +1,131 @@
+"""The reference of the Python package: a page for each public module, out of the docstrings.
+
+A package has a page of its own with a table of its modules. A name in backticks leads to where it is described, whether
+it is written in full (`illuminant.image.Image`) or belongs to the same module.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from dialect import escaped
+from docstrings import markdown, summary
+from links import between
+from modules import Member, Module, public_modules, read
+
+__all__ = ["FOLDER", "Reference"]
+
+FOLDER = "python"
+"""Folder of the site for these pages."""
+
+
+class Reference:
+    """All pages of the reference.
+
+    Attributes:
+        modules: the modules by their dotted names, packages before what is in them.
+    """
+
+    def __init__(self, source: Path) -> None:
+        self.modules: dict[str, Module] = {
+            name: read(name, path) for name, path in public_modules(source)
+        }
+        self._places = dict(self._anchors())
+
+    def path(self, name: str) -> str:
+        """The page of a module on the site."""
+        below = name.split(".")[1:]
+        if self.modules[name].package:
+            below.append("index")
+        return "/".join([FOLDER, *below]) + ".md"
+
+    def pages(self) -> Iterator[tuple[str, str]]:
+        """Path and text of every page."""
+        for name, module in self.modules.items():
+            yield self.path(name), "\n".join(self._page(module)) + "\n"
+
+    def below(self, package: str) -> list[str]:
+        """The modules and packages that lie in a package itself."""
+        return [name for name in self.modules if name.rpartition(".")[0] == package]
+
+    # --- pages -------------------------------------------------------------------------------------------------
+
+    def _page(self, module: Module) -> Iterator[str]:
+        """The lines of one page."""
+        yield from (f"# {escaped(module.name)}", "", markdown(module.doc, self._linker(module)), "")
+        imports = [member for member in module.members if member.kind == "import"]
+        if imports:
+            yield from ("## Names", "", "| name | from |", "| --- | --- |")
+            for member in imports:
+                yield f"| `{member.name}` | {self._link(module, f'`{member.origin}`')} |"
+            yield ""
+        if module.package:
+            yield from ("## Modules", "", "| module | for |", "| --- | --- |")
+            for name in self.below(module.name):
+                link = between(self.path(module.name), self.path(name))
+                about = re.sub(r"(?<!\\)\|", r"\\|", summary(self.modules[name].doc))
+                yield f"| [`{name.rpartition('.')[2]}`]({link}) | {about} |"
+            yield ""
+        for member in module.members:
+            if member.kind != "import":
+                yield from self._member(module, member, 2)
+
+    def _member(self, module: Module, member: Member, level: int) -> Iterator[str]:
+        """The lines of a name: heading, signature, docstring, and what belongs to it."""
+        yield from (f"{'#' * level} {escaped(member.name)}", "")
+        yield from ("```python", *member.signature.split("\n"), "```", "")
+        if member.doc:
+            yield from (markdown(member.doc, self._linker(module)), "")
+        for one in member.members:
+            yield from self._member(module, one, level + 1)
+
+    # --- links -------------------------------------------------------------------------------------------------
+
+    def _anchors(self) -> Iterator[tuple[str, str]]:
+        """Page and anchor of every module, and of every name by its dotted name."""
+        for name, module in self.modules.items():
+            yield name, self.path(name)
+            taken: set[str] = set()
+
+            def descend(members: list[Member], name: str = name, taken: set[str] = taken) -> Iterator[tuple[str, str]]:
+                for member in members:
+                    if member.kind != "import":
+                        anchor = _free(re.sub(r"[^\w\-]", "", member.name.lower()), taken)
+                        yield f"{name}.{member.name}", f"{self.path(name)}#{anchor}"
+                        yield from descend(member.members)
+
+            for heading in (re.sub(r"[^\w\-]", "", name), "names", "modules"):
+                if heading == name.replace(".", "") or module.package:
+                    taken.add(heading)
+            yield from descend(module.members)
+            for member in module.members:
+                if member.kind == "import":
+                    yield f"{name}.{member.name}", self.path(name)
+
+    def _linker(self, module: Module):  # noqa: ANN202 - a closure over the module
+        return lambda code: self._link(module, code)
+
+    def _link(self, module: Module, code: str) -> str:
+        """A piece of code as a link, where it names something that has a place."""
+        name = code.strip("`").split("(")[0]
+        for full in (name, f"{module.name}.{name}"):
+            place = self._places.get(full)
+            if place and full != module.name:
+                page, _, anchor = place.partition("#")
+                here = self.path(module.name)
+                target = "" if page == here and anchor else between(here, page)
+                return f"[{code}]({target}{'#' if anchor else ''}{anchor})"
+        return code
+
+
+def _free(anchor: str, taken: set[str]) -> str:
+    """The anchor that Python-Markdown gives to a heading after those that came before it on the page."""
+    number = 0
+    free = anchor
+    while free in taken:
+        number += 1
+        free = f"{anchor}_{number}"
+    taken.add(free)
+    return free
