@@ -4,6 +4,7 @@
     matching_functions(observer)   x̄, ȳ, z̄, or their like in another space or for three monochromatic lights
     chromaticity("xy")             a diagram with the spectral locus, lamps, materials and gamuts
     distributions(), coefficients()   highlights of the literature in polar plots, and their coefficients
+    picture_sheet(pictures, captions, columns)   pictures side by side, pixel for pixel
     projection(primaries_nm)       how the diagram of three lights comes about, in their space
     waveform(signal), vectorscope(signal)   a composite video signal as instruments show it
     yiq_gamut()                    the RGB cube in Y I Q, with the colours that NTSC cannot carry
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from illuminant.plots.chroma_vectors import vectorscope
     from illuminant.plots.chromaticity_diagram import chromaticity
     from illuminant.plots.composite_waveform import waveform
+    from illuminant.plots.contact_sheet import picture_sheet
     from illuminant.plots.lobes import coefficients, distributions
     from illuminant.plots.matching import matching_functions
     from illuminant.plots.projection_space import projection
@@ -40,6 +42,7 @@ __all__ = [
     "curves",
     "distributions",
     "matching_functions",
+    "picture_sheet",
     "projection",
     "save",
     "vectorscope",
@@ -54,6 +57,7 @@ _HOME = {
     "distributions": "lobes",
     "curves": "spectral_curves",
     "matching_functions": "matching",
+    "picture_sheet": "contact_sheet",
     "projection": "projection_space",
     "save": "style",
     "vectorscope": "chroma_vectors",

@@ -20,7 +20,18 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["DPI", "FORMATS", "GREY", "check_format", "line_look", "new_figure", "save", "styled"]
+__all__ = [
+    "DPI",
+    "FORMATS",
+    "GREY",
+    "PRINTED",
+    "TODAY",
+    "check_format",
+    "line_look",
+    "new_figure",
+    "save",
+    "styled",
+]
 
 DPI = 200
 """Pixels per inch of a PNG; a figure of 8 inches is 1,600 pixels wide."""
@@ -28,6 +39,12 @@ DPI = 200
 FORMATS = (".png", ".svg")
 GREY = "#555555"
 INK = "#222222"
+
+PRINTED: dict[str, Any] = {"linestyle": (0, (4, 2.5)), "linewidth": 1.1, "alpha": 0.8}
+"""A curve as the book prints it where the book errs; in the colour of the right one."""
+
+TODAY: dict[str, Any] = {"color": "#000000", "linestyle": "-", "linewidth": 2.2, "alpha": 0.55}
+"""What is done today, in the axes of an older model."""
 
 # Okabe and Ito (2008), Color universal design, in an order in which neighbours differ most; yellow, too light on
 # white, gives way to a brown.

@@ -1,0 +1,1 @@
+"""Chapter 3, perceptual response: colour and its computation."""

@@ -1,0 +1,1 @@
+"""Chapter 5, image display: from colours to a screen."""
