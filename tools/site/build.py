@@ -27,11 +27,11 @@ def build(folder: Path, atlas: Path | None) -> Path:
     pages, html = folder / "pages", folder / "html"
     folder.mkdir(parents=True, exist_ok=True)
     stage = Stage(REPOSITORY, pages, atlas)
-    stage.fill()
-    stage.write("commands.md", commands.page())
+    stage.make("commands.md", commands.page())
     reference = Reference(REPOSITORY / "python")
     for path, text in reference.pages():
-        stage.write(path, text)
+        stage.make(path, text)
+    stage.fill()
     order = navigation.toml(navigation.navigation(pages, reference))
     found = f'[project]\ndocs_dir = "{pages.name}"\nsite_dir = "{html.name}"\nnav = {order}\n'
     settings = (REPOSITORY / "zensical.toml").read_text(encoding="utf-8")
@@ -57,6 +57,7 @@ def main() -> None:
         html = build(options.folder.resolve(), options.atlas.resolve() if options.atlas else None)
     except DeadLinkError as error:
         raise SystemExit(f"illuminant: {error}") from error
+    print(f"illuminant: {len(list(html.rglob('*.html')))} pages, no dead link, nothing from outside")
     print(f"illuminant: the site is {html / 'index.html'}")
 
 

@@ -3,11 +3,12 @@
 Every page and style sheet is read. A link inside must lead to a file that is there, and its anchor to an element with
 that id. What a browser loads by itself (scripts, styles, fonts, images, frames) must come from the site; a link that a
 reader follows may lead outside. Zensical's own programs hold addresses of what a page could ask for (a diagram by
-Mermaid): such a page must not exist.
+Mermaid, code that is run): such a page must not exist.
 """
 
 from __future__ import annotations
 
+import functools
 import os
 import re
 from html.parser import HTMLParser
@@ -28,8 +29,17 @@ _LOADED = {
     "image": ("href", "xlink:href"),
     "use": ("href", "xlink:href"),
 }
-_LOADED_LINKS = {"stylesheet", "icon", "preload", "prefetch", "preconnect", "dns-prefetch", "manifest", "modulepreload"}
-_ASKS_FOR_MORE = {"mermaid", "giscus"}
+_LOADED_LINKS = {
+    "stylesheet",
+    "icon",
+    "preload",
+    "prefetch",
+    "preconnect",
+    "dns-prefetch",
+    "manifest",
+    "modulepreload",
+}
+_ASKS_FOR_MORE = {"mermaid", "pyodide", "glightbox"}
 """Classes for which Zensical's program fetches another from outside."""
 
 
@@ -50,7 +60,8 @@ class _Page(HTMLParser):
         self.ids |= {attributes[name] for name in ("id", "name") if name in attributes and tag != "meta"}
         self.classes |= set(attributes.get("class", "").split())
         self._style = tag == "style"
-        self.loaded += _addresses(attributes.get("style", ""))
+        if "style" in attributes:
+            self.loaded += _addresses(attributes["style"])
         if tag in ("a", "area") and "href" in attributes:
             self.links.append(attributes["href"])
         if tag == "link" and "href" in attributes:
@@ -58,7 +69,11 @@ class _Page(HTMLParser):
             (self.loaded if kinds & _LOADED_LINKS else self.links).append(attributes["href"])
         for name in _LOADED.get(tag, ()):
             value = attributes.get(name, "")
-            self.loaded += [part.split()[0] for part in value.split(",") if part.strip()] if name == "srcset" else [value]
+            self.loaded += (
+                [part.split()[0] for part in value.split(",") if part.strip()]
+                if name == "srcset"
+                else [value]
+            )
 
     def handle_endtag(self, tag: str) -> None:
         self._style = self._style and tag != "style"
@@ -77,6 +92,7 @@ def _addresses(style: str) -> list[str]:
 
 def mistakes(folder: Path) -> list[str]:
     """One line for each mistake of the site in a folder; an empty list says that there is none."""
+    _target.cache_clear()
     folder = folder.resolve()
     pages = {path: _Page(path.read_text(encoding="utf-8")) for path in sorted(folder.rglob("*.html"))}
     found = []
@@ -84,11 +100,13 @@ def mistakes(folder: Path) -> list[str]:
         name = path.relative_to(folder).as_posix()
         # The page for what is not found is shown at any address, so its links start at the root.
         home = folder if name == "404.html" else path.parent
-        for link in page.links:
+        for link in dict.fromkeys(page.links):
             found += [f"{name}: {what}" for what in _wrong(link, path, home, folder, pages)]
-        for link in page.loaded:
+        for link in dict.fromkeys(page.loaded):
             found += [f"{name}: {what}" for what in _wrong_resource(link, home, folder)]
-        found += [f"{name}: `{what}` fetches a program from outside" for what in page.classes & _ASKS_FOR_MORE]
+        found += [
+            f"{name}: `{what}` fetches a program from outside" for what in page.classes & _ASKS_FOR_MORE
+        ]
     for path in sorted(folder.rglob("*.css")):
         for link in _addresses(path.read_text(encoding="utf-8")):
             name = path.relative_to(folder).as_posix()
@@ -96,9 +114,10 @@ def mistakes(folder: Path) -> list[str]:
     return found
 
 
-def _target(link: str, home: Path, folder: Path) -> Path | None:
-    """The file a link leads to, or None where it is not there."""
-    path = unquote(urlsplit(link).path)
+@functools.cache
+def _target(path: str, home: Path, folder: Path) -> Path | None:
+    """The file that the path of a link leads to, or None where it is not there."""
+    path = unquote(path)
     target = Path(os.path.normpath(folder / path.lstrip("/") if path.startswith("/") else home / path))
     if target.is_dir():
         target /= "index.html"
@@ -110,7 +129,7 @@ def _wrong(link: str, path: Path, home: Path, folder: Path, pages: dict[Path, _P
     parts = urlsplit(link)
     if parts.scheme or parts.netloc:
         return []
-    target = _target(link, home, folder) if parts.path else path
+    target = _target(parts.path, home, folder) if parts.path else path
     if target is None:
         return [f"the link {link} leads to nothing"]
     page = pages.get(target)
@@ -127,4 +146,4 @@ def _wrong_resource(link: str, home: Path, folder: Path) -> list[str]:
         return []
     if parts.scheme or parts.netloc:
         return [f"{link} is loaded from outside"]
-    return [] if _target(link, home, folder) else [f"{link} is not there"]
+    return [] if _target(parts.path, home, folder) else [f"{link} is not there"]

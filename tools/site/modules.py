@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 import inspect
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -76,7 +76,9 @@ def read(name: str, path: Path) -> Module:
     package = path.name == "__init__.py"
     offered = _offered(tree)
     imported = _imported(tree, name if package else name.rpartition(".")[0])
-    found = {member.name: member for member in _members(tree.body, offered.__contains__)}
+    # What only a type checker sees stands in an `if`.
+    seen = [part for node in tree.body if isinstance(node, ast.If) for part in node.body]
+    found = {member.name: member for member in _members([*tree.body, *seen], offered.__contains__)}
     for one in offered - found.keys():
         if one in imported:
             found[one] = Member(one, "import", origin=imported[one])
@@ -106,7 +108,7 @@ def _imported(tree: ast.Module, package: str) -> dict[str, str]:
     return names
 
 
-def _members(body: list[ast.stmt], wanted: object, owner: str = "") -> Iterator[Member]:
+def _members(body: list[ast.stmt], wanted: Callable[[str], bool], owner: str = "") -> Iterator[Member]:
     """The functions, classes and constants of a module or class, in the order of the source."""
     prefix = f"{owner}." if owner else ""
     for node, after in zip(body, [*body[1:], None], strict=True):
@@ -125,7 +127,13 @@ def _members(body: list[ast.stmt], wanted: object, owner: str = "") -> Iterator[
             yield Member(prefix + node.name, "class", _class(node), ast.get_docstring(node) or "", inside)
         elif isinstance(node, (ast.Assign, ast.AnnAssign)):
             target = node.target if isinstance(node, ast.AnnAssign) else node.targets[0]
-            if isinstance(target, ast.Name) and wanted(target.id):
+            if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
+                pairs = zip(target.elts, node.value.elts, strict=True)
+                for name, value in ((ast.unparse(left), right) for left, right in pairs):
+                    if wanted(name):
+                        one = ast.Assign([ast.Name(name)], value)
+                        yield Member(prefix + name, "constant", _constant(name, one), _text_below(after))
+            elif isinstance(target, ast.Name) and wanted(target.id):
                 doc = _text_below(after)
                 # A field of a class stands in the signature; one with words of its own stands by itself as well.
                 if owner and not doc:
@@ -135,7 +143,11 @@ def _members(body: list[ast.stmt], wanted: object, owner: str = "") -> Iterator[
 
 def _text_below(node: ast.stmt | None) -> str:
     """The docstring of a constant: the text below it."""
-    if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
+    if (
+        isinstance(node, ast.Expr)
+        and isinstance(node.value, ast.Constant)
+        and isinstance(node.value.value, str)
+    ):
         return inspect.cleandoc(node.value.value)
     return ""
 

@@ -16,7 +16,7 @@ from python_reference import FOLDER, Reference
 
 __all__ = ["navigation", "toml"]
 
-START = ("install.md", "first-material.md", "spectra.md", "optics.md")
+START = ("install.md", "first-material.md", "spectra.md")
 """Install, the first image, and materials and lamps of one's own."""
 
 WAY = (
@@ -36,6 +36,7 @@ WAY = (
 
 TOPICS = (
     "physics.md",
+    "optics.md",
     "models.md",
     "radiosity.md",
     "sampling.md",
@@ -54,7 +55,12 @@ REFERENCE = ("scene-file.md", "command-line.md", "commands.md")
 PROOF = ("validation.md", "benchmarks.md", "benches.md")
 PROJECT = ("readme.md", "dependencies.md", "contributing.md", "changelog.md")
 
-TITLES = {"index.md": "illuminant", "readme.md": "About", "benches.md": "Adding a peer", "atlas/index.md": "The atlas"}
+TITLES = {
+    "index.md": "illuminant",
+    "readme.md": "About",
+    "benches.md": "Adding a peer",
+    "atlas/index.md": "The atlas",
+}
 """Titles that are not the heading of their page."""
 
 CHAPTERS = {
@@ -102,7 +108,11 @@ def toml(items: list[Item]) -> str:
 def _inline(value: Any) -> str:
     """A value on one line."""
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{json.dumps(k, ensure_ascii=False)} = {_inline(v)}" for k, v in value.items()) + " }"
+        return (
+            "{ "
+            + ", ".join(f"{json.dumps(k, ensure_ascii=False)} = {_inline(v)}" for k, v in value.items())
+            + " }"
+        )
     if isinstance(value, list):
         return "[" + ", ".join(map(_inline, value)) + "]"
     return json.dumps(value, ensure_ascii=False)

@@ -7,7 +7,7 @@ it is written in full (`illuminant.image.Image`) or belongs to the same module.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from dialect import escaped
@@ -29,9 +29,7 @@ class Reference:
     """
 
     def __init__(self, source: Path) -> None:
-        self.modules: dict[str, Module] = {
-            name: read(name, path) for name, path in public_modules(source)
-        }
+        self.modules: dict[str, Module] = {name: read(name, path) for name, path in public_modules(source)}
         self._places = dict(self._anchors())
 
     def path(self, name: str) -> str:
@@ -89,22 +87,20 @@ class Reference:
             yield name, self.path(name)
             taken: set[str] = set()
 
-            def descend(members: list[Member], name: str = name, taken: set[str] = taken) -> Iterator[tuple[str, str]]:
-                for member in members:
-                    if member.kind != "import":
-                        anchor = _free(re.sub(r"[^\w\-]", "", member.name.lower()), taken)
-                        yield f"{name}.{member.name}", f"{self.path(name)}#{anchor}"
-                        yield from descend(member.members)
-
-            for heading in (re.sub(r"[^\w\-]", "", name), "names", "modules"):
-                if heading == name.replace(".", "") or module.package:
-                    taken.add(heading)
-            yield from descend(module.members)
-            for member in module.members:
+            if any(member.kind == "import" for member in module.members):
+                taken.add("names")
+            if module.package:
+                taken.add("modules")
+            taken.add(name.replace(".", ""))
+            for member in _all(module.members):
                 if member.kind == "import":
                     yield f"{name}.{member.name}", self.path(name)
+                else:
+                    anchor = _free(re.sub(r"[^\w\-]", "", member.name.lower()), taken)
+                    yield f"{name}.{member.name}", f"{self.path(name)}#{anchor}"
 
-    def _linker(self, module: Module):  # noqa: ANN202 - a closure over the module
+    def _linker(self, module: Module) -> Callable[[str], str]:
+        """The links of a module's docstrings."""
         return lambda code: self._link(module, code)
 
     def _link(self, module: Module, code: str) -> str:
@@ -118,6 +114,13 @@ class Reference:
                 target = "" if page == here and anchor else between(here, page)
                 return f"[{code}]({target}{'#' if anchor else ''}{anchor})"
         return code
+
+
+def _all(members: list[Member]) -> Iterator[Member]:
+    """Names and what belongs to them, in the order of their headings."""
+    for member in members:
+        yield member
+        yield from _all(member.members)
 
 
 def _free(anchor: str, taken: set[str]) -> str:

@@ -39,6 +39,8 @@ class Stage:
         self.repository = repository
         self.folder = folder
         self.atlas = atlas
+        self._made: set[str] = set()
+        shutil.rmtree(folder, ignore_errors=True)
         docs = repository / "docs"
         self.pages = dict(PAGES_OUTSIDE)
         for page in sorted(docs.rglob("*.md")):
@@ -51,16 +53,21 @@ class Stage:
                 self.pages[f"docs/atlas/{name}"] = f"atlas/{name}"
 
     def fill(self) -> None:
-        """Write every page, and every file that one of them links to."""
-        shutil.rmtree(self.folder, ignore_errors=True)
+        """Put every page of the repository here, and every file that one of them links to."""
         programs = self.repository / "docs" / "site"
         shutil.copytree(programs, self.folder / "site", ignore=shutil.ignore_patterns("*.md"))
         for origin, staged in self.pages.items():
             text = for_the_site(self._file(origin).read_text(encoding="utf-8"))
-            self.write(staged, rewritten(text, origin, staged, self.place))
+            self._write(staged, rewritten(text, origin, staged, self.place))
 
-    def write(self, staged: str, text: str) -> None:
-        """Write a page of the site."""
+    def make(self, staged: str, text: str) -> None:
+        """Write a page that is made from the code. What only the site shows may link to it as to a file of `docs`."""
+        if f"docs/{staged}" in self.pages:
+            raise ValueError(f"docs/{staged} is the name of a page that is made from the code.")
+        self._made.add(staged)
+        self._write(staged, text)
+
+    def _write(self, staged: str, text: str) -> None:
         path = self.folder / staged
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
@@ -73,6 +80,8 @@ class Stage:
         """
         if origin in self.pages:
             return self.pages[origin]
+        if origin.removeprefix("docs/") in self._made:
+            return origin.removeprefix("docs/")
         file = self._file(origin)
         if origin.startswith("..") or not file.is_file():
             raise FileNotFoundError(origin)
