@@ -1,4 +1,4 @@
-"""The documentation site: built from nothing, complete, whole without a network, and its formulas drawn by a browser."""
+"""The documentation site: built from nothing, complete, whole without a network, its formulas drawn by a browser."""
 
 import html
 import importlib

@@ -1,8 +1,8 @@
 """Build the documentation site: `python tools/site/build.py build/site` writes it into `build/site/html`.
 
 The pages come together in `build/site/pages`: the manual (`docs`), what it links to, the atlas where it has been drawn
-(`--atlas`), and the references of the commands and of the Python package, written from the code. Zensical makes the site
-of them, and any warning of it ends the build; then every link of the result is followed (`inspection.py`).
+(`--atlas`), and the references of the commands and of the Python package, written from the code. Zensical makes the
+site of them, and any warning of it ends the build; then every link of the result is followed (`inspection.py`).
 """
 
 from __future__ import annotations

@@ -24,8 +24,9 @@ def tree(command: Any, words: tuple[str, ...] = ("illuminant",)) -> Iterator[tup
 
 def page() -> str:
     """The page, in Markdown."""
-    from illuminant.cli import app
     from typer.main import get_command
+
+    from illuminant.cli import app
 
     lines = [
         "# Commands",

@@ -1,8 +1,8 @@
 """A docstring of the house as Markdown.
 
-Prose is Markdown already (lists, tables, code in backticks); what is indented is a formula or an example and stays as it
-is set. Of the sections of Google's style come `Args`, `Attributes`, `Raises` and `Operators` as lists of names, `Returns`
-and `Yields` as prose, `Example` as code.
+Prose is Markdown already (lists, tables, code in backticks); what is indented is a formula or an example and stays as
+it is set. Of the sections of Google's style come `Args`, `Attributes`, `Raises` and `Operators` as lists of names,
+`Returns` and `Yields` as prose, `Example` as code.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def _blocks(body: str, link: Callable[[str], str]) -> Iterator[str]:
     for block in re.split(r"\n\s*\n", body):
         lines = block.split("\n")
         while lines:
-            indented = [line for line in _leading(lines, lambda line: line.startswith("    "))]
+            indented = list(_leading(lines, lambda line: line.startswith("    ")))
             if indented:
                 if re.match(r"\s*[-*] ", indented[0]):
                     yield from (_prose(textwrap.dedent("\n".join(indented)), link), "")

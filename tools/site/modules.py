@@ -1,7 +1,7 @@
 """What a Python module offers, read from its source without running it: the names of its `__all__`.
 
-A module is public when neither it nor a package around it begins with `_`. The package `illuminant.cli` is left out: what
-it offers is the command, and that has a reference of its own.
+A module is public when neither it nor a package around it begins with `_`. The package `illuminant.cli` is left out:
+what it offers is the command, and that has a reference of its own.
 """
 
 from __future__ import annotations
@@ -88,15 +88,14 @@ def read(name: str, path: Path) -> Module:
 def _offered(tree: ast.Module) -> set[str]:
     """The names in `__all__`."""
     for node in tree.body:
-        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-            if node.targets[0].id == "__all__":
-                return {part.value for part in ast.walk(node.value) if isinstance(part, ast.Constant)}
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
+            return {str(part.value) for part in ast.walk(node.value) if isinstance(part, ast.Constant)}
     return set()
 
 
 def _imported(tree: ast.Module, package: str) -> dict[str, str]:
     """The dotted name behind each name that is imported from this project."""
-    names = {}
+    names: dict[str, str] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom):
             home = node.module or ""

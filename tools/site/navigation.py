@@ -1,7 +1,7 @@
 """The order of the site: what stands under which heading.
 
-A page of the manual that is not named here stands at the end of the topics, one of `docs/way` at the end of the way, and
-one of the atlas in its chapter, so that none is lost.
+A page of the manual that is not named here stands at the end of the topics, one of `docs/way` at the end of the way,
+and one of the atlas in its chapter, so that none is lost.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The folder that the site is built from: the manual, what it links to, and the pages made out of the code.
 
-Every page has two paths: where it lies in the repository, which its links start from, and where it lies on the site. The
-atlas counts as the folder `docs/atlas`, wherever it was drawn.
+Every page has two paths: where it lies in the repository, which its links start from, and where it lies on the site.
+The atlas counts as the folder `docs/atlas`, wherever it was drawn.
 """
 
 from __future__ import annotations
