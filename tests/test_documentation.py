@@ -137,9 +137,12 @@ def anchors(page: Path) -> set[str]:
 
 
 def links(page: Path) -> list[str]:
-    """The relative links of a page; code is no link."""
+    """The relative links of a page; code is no link, and what only the site shows is looked at there (tests/site)."""
     content = re.sub(
-        r"^```.*?^```$|`[^`\n]*`", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL
+        r"^```.*?^```$|`[^`\n]*`|<!-- site\n.*?\n-->",
+        "",
+        page.read_text(encoding="utf-8"),
+        flags=re.MULTILINE | re.DOTALL,
     )
     return [link for link in re.findall(r"\]\(([^)\s]+)\)", content) if not re.match(r"[a-z]+:", link)]
 

@@ -49,7 +49,7 @@ def page() -> str:
 
 def _summary(command: Any) -> str:
     """The first sentence or line of a command's help."""
-    return re.split(r"\n\n|(?<=\.)\s", command.help or "", maxsplit=1)[0].replace("\n", " ").strip()
+    return re.split(r"\n\n|(?<=\.)\s(?=[A-Z])", command.help or "", maxsplit=1)[0].replace("\n", " ").strip()
 
 
 def _described(words: tuple[str, ...], command: Any) -> Iterator[str]:
@@ -63,7 +63,7 @@ def _described(words: tuple[str, ...], command: Any) -> Iterator[str]:
             title, *rest = paragraph.removeprefix("\b").strip("\n").split("\n")
             code = rest if title.endswith(":") else [title, *rest]
             if title.endswith(":"):
-                yield from (f"**{escaped(title)}**", "")
+                yield from (f"**{escaped(title.removesuffix(':'))}**", "")
             language = "sh" if any("illuminant" in line for line in code) else "text"
             indent = min((len(line) - len(line.lstrip()) for line in code if line.strip()), default=0)
             yield from (f"```{language}", *(line[indent:] for line in code), "```", "")

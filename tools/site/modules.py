@@ -79,7 +79,7 @@ def read(name: str, path: Path) -> Module:
     # What only a type checker sees stands in an `if`.
     seen = [part for node in tree.body if isinstance(node, ast.If) for part in node.body]
     found = {member.name: member for member in _members([*tree.body, *seen], offered.__contains__)}
-    for one in offered - found.keys():
+    for one in sorted(offered - found.keys()):
         if one in imported:
             found[one] = Member(one, "import", origin=imported[one])
     return Module(name, package, ast.get_docstring(tree) or "", list(found.values()))

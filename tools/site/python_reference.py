@@ -31,6 +31,11 @@ class Reference:
     def __init__(self, source: Path) -> None:
         self.modules: dict[str, Module] = {name: read(name, path) for name, path in public_modules(source)}
         self._places = dict(self._anchors())
+        self._about = {
+            f"{name}.{member.name}": member.doc
+            for name, module in self.modules.items()
+            for member in module.members
+        }
 
     def path(self, name: str) -> str:
         """The page of a module on the site."""
@@ -55,16 +60,17 @@ class Reference:
         yield from (f"# {escaped(module.name)}", "", markdown(module.doc, self._linker(module)), "")
         imports = [member for member in module.members if member.kind == "import"]
         if imports:
-            yield from ("## Names", "", "| name | from |", "| --- | --- |")
+            yield from ("## Names", "", "| name | for |", "| --- | --- |")
             for member in imports:
-                yield f"| `{member.name}` | {self._link(module, f'`{member.origin}`')} |"
+                target = self._address(module, member.origin)
+                name = f"[`{member.name}`]({target})" if target else f"`{member.name}`"
+                yield f"| {name} | {_cell(self._about.get(member.origin, ''))} |"
             yield ""
         if module.package:
             yield from ("## Modules", "", "| module | for |", "| --- | --- |")
             for name in self.below(module.name):
                 link = between(self.path(module.name), self.path(name))
-                about = re.sub(r"(?<!\\)\|", r"\\|", summary(self.modules[name].doc))
-                yield f"| [`{name.rpartition('.')[2]}`]({link}) | {about} |"
+                yield f"| [`{name.rpartition('.')[2]}`]({link}) | {_cell(self.modules[name].doc)} |"
             yield ""
         for member in module.members:
             if member.kind != "import":
@@ -106,14 +112,25 @@ class Reference:
     def _link(self, module: Module, code: str) -> str:
         """A piece of code as a link, where it names something that has a place."""
         name = code.strip("`").split("(")[0]
-        for full in (name, f"{module.name}.{name}"):
-            place = self._places.get(full)
-            if place and full != module.name:
-                page, _, anchor = place.partition("#")
-                here = self.path(module.name)
-                target = "" if page == here and anchor else between(here, page)
-                return f"[{code}]({target}{'#' if anchor else ''}{anchor})"
+        for full in (name, f"{module.name}.{name}", f"illuminant.errors.{name}"):
+            target = self._address(module, full)
+            if target:
+                return f"[{code}]({target})"
         return code
+
+    def _address(self, module: Module, full: str) -> str:
+        """The link from the page of a module to what a dotted name stands for; empty where that has no place."""
+        place = self._places.get(full)
+        if place is None or full == module.name:
+            return ""
+        page, mark, anchor = place.partition("#")
+        here = self.path(module.name)
+        return ("" if page == here and anchor else between(here, page)) + mark + anchor
+
+
+def _cell(docstring: str) -> str:
+    """The first paragraph of a docstring, for a cell of a table."""
+    return re.sub(r"(?<!\\)\|", r"\\|", summary(docstring)) if docstring else ""
 
 
 def _all(members: list[Member]) -> Iterator[Member]:
