@@ -5,7 +5,7 @@ Figures 5.16 and 5.17 differ in their bars −I and +Q alone, so one layout draw
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     import numpy as np
@@ -64,7 +64,7 @@ def read(signal: Signal, line: int, centre: float) -> Read:
     return Read(float(np.mean(signal.active[line, at - 8 : at + 8])), 2.0 * amplitude, hue)
 
 
-def columns(signal: Signal, expected: dict[str, BarLevels]) -> dict[str, list[float] | list[str]]:
+def columns(signal: Signal, expected: dict[str, BarLevels]) -> dict[str, Any]:
     """A row for each bar: what the standard says, and what is read in the signal."""
     names = [name for name in expected if name != "black"]
     centres = {name: (UPPER, (k + 0.5) / 7.0) for k, name in enumerate(names[:7])}
@@ -85,29 +85,29 @@ def columns(signal: Signal, expected: dict[str, BarLevels]) -> dict[str, list[fl
 
 
 def instruments(values: Float64, signal: Signal) -> Figure:
-    """The pattern and a vectorscope above, the waveforms of a line of the bars and of one of the row below under them."""
+    """Waveforms of a line of the bars and of one of the row below; beside them the pattern and the vectors of both."""
     import numpy as np
     from matplotlib.figure import Figure
 
+    from illuminant.display.video import scopes
     from illuminant.plots import chroma_vectors, composite_waveform
     from illuminant.plots.style import DPI
 
     figure = Figure(figsize=(9.0, 6.0), dpi=DPI, layout="constrained", facecolor="white")
-    grid = figure.add_gridspec(2, 2, height_ratios=(1.15, 1.0))
-    pattern, scope = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[0, 1])
-    pattern.imshow(np.clip(values, 0.0, 1.0), extent=(0.0, 4.0, 0.0, 3.0), interpolation="nearest")
-    pattern.set_axis_off()
-    pattern.set_title("The pattern")
-    scope.set_aspect("equal")
-    scope.set_axis_off()
-    chroma_vectors.draw(scope, signal)
-    scope.set_title("Vectorscope")
-    for column, (line, title) in enumerate(
-        ((UPPER, "A line of the bars"), (LOWER, "A line of the row below"))
-    ):
-        axes = figure.add_subplot(grid[1, column])
+    grid = figure.add_gridspec(6, 2, width_ratios=(1.25, 1.0))
+    for row, (line, title) in enumerate(((UPPER, "A line of the bars"), (LOWER, "A line of the row below"))):
+        axes = figure.add_subplot(grid[3 * row : 3 * row + 3, 0])
         composite_waveform.draw(axes, signal, line)
         axes.set_title(title)
-        if column:
-            axes.set_ylabel("")
+        if row == 0:
+            axes.set_xlabel("")
+    pattern, scope = figure.add_subplot(grid[:2, 1]), figure.add_subplot(grid[2:, 1])
+    pattern.imshow(np.clip(values, 0.0, 1.0), extent=(0.0, 4.0, 0.0, 3.0), interpolation="nearest")
+    pattern.set_axis_off()
+    pattern.set_title("The pattern", loc="center")
+    scope.set_aspect("equal")
+    scope.set_axis_off()
+    chroma_vectors.draw(scope, signal, UPPER)
+    scope.plot(*scopes.vectors(signal, LOWER).T, ".", color="black", markersize=2.0, zorder=2)
+    scope.set_title("Their colours on a vectorscope; black: the row below", fontsize=9, loc="center")
     return figure

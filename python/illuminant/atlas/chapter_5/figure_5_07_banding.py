@@ -71,13 +71,15 @@ def draw(quick: bool) -> Sheet:
 PLATE = Plate(
     number="5.7",
     title="Correction for gamma before storage and at display",
-    shows="A smooth gradation, stored as linear bytes and corrected by the table of $v = I^{1/\\gamma}$ at display (eq "
-    "5.1), beside one that is corrected before it is stored; γ = 2.2, at 8 bits and, so that it is seen in print, "
-    "at 6. Under each sphere lies a ramp of the darkest tenth of its colour.",
+    shows="A smooth gradation, stored as linear bytes and corrected by the table of $v = I^{1/\\gamma}$ at display "
+    "(eq 5.1), beside one that is corrected before it is stored; γ = 2.2, at 8 bits and, so that it is seen in "
+    "print, at 6. Under each sphere lies a ramp of the darkest tenth of its colour.",
     claim="Correction at display makes dark steps of lightness at least three times as large as correction before "
-    "storage with the same 8 bits, and jumps of hue besides, since red, green and blue step at different places.",
-    today="Every picture is corrected before it is stored, and a dither of blue noise can break up what steps remain: "
-    "in the third column even 6 bits show no band. The largest dark step of 8 bits falls from 2.2 to 0.4 in L*.",
+    "storage with the same 8 bits, and jumps of hue besides, since red, green and blue step at different "
+    "places.",
+    today="Every picture is corrected before it is stored, and a dither of blue noise can break up what steps "
+    "remain: in the third column even 6 bits show no band. The largest dark step of 8 bits falls from 2.2 to "
+    "0.4 in L*.",
     draw=draw,
     commands=("illuminant gamma --help", "illuminant display room.exr room.png --dither blue-noise"),
 )

@@ -43,11 +43,7 @@ def draw(quick: bool) -> Sheet:
             **{f"{channel} shown": inside[:, k] for k, channel in enumerate("RGB")},
         },
         checks=(
-            Check(
-                "farthest of all paths outside the cube",
-                float(max(-inside.min(), inside.max() - 1.0)),
-                at_most=1e-9,
-            ),
+            Check("farthest of all paths outside the cube", farthest, at_most=1e-9),
             Check(
                 "constant intensity: change of R + G + B below that of white",
                 float(np.abs(kept.sum(axis=-1) - bright.sum(axis=-1))[dim].max()),
@@ -69,13 +65,14 @@ def draw(quick: bool) -> Sheet:
 PLATE = Plate(
     number="5.8",
     title="Clipping paths in the RGB cube",
-    shows="Gradients of four hues that grow too bright at one chromaticity, or too saturated at one luminance (dotted), "
-    "and where a method takes them (in colour): at constant intensity $R + G + B$ towards the neutral axis, by "
-    "scaling $c/\\max(c)$, and by clamping each channel. The neutral axis is dashed.",
-    claim="Constant intensity leads along the cube's faces into white, scaling stops where the gradient leaves the cube "
-    "and keeps its direction, and clamping follows edges and turns hues by more than ten degrees.",
-    today="Lower row: `cook`, the default, adds white until no channel is negative and scales the rest; `oklab` keeps "
-    "hue and lightness as they are seen; `soft` gives way before the boundary, so that no path has a corner.",
+    shows="Gradients of four hues that grow too bright at one chromaticity, or too saturated at one luminance "
+    "(dotted), and where a method takes them (in colour): at constant intensity $R + G + B$ towards the "
+    "neutral axis, by scaling $c/\\max(c)$, and by clamping each channel. The neutral axis is dashed.",
+    claim="Constant intensity leads along the cube's faces into white, scaling stops where the gradient leaves the "
+    "cube and keeps its direction, and clamping follows edges and turns hues by more than ten degrees.",
+    today="Lower row: `cook`, the default, adds white until no channel is negative and scales the rest; `oklab` "
+    "keeps hue and lightness as they are seen; `soft` gives way before the boundary, so that no path has a "
+    "corner.",
     draw=draw,
     commands=("illuminant gamut paths -o paths.png", "illuminant gamut study"),
 )

@@ -71,12 +71,12 @@ PLATE = Plate(
     number="5.9",
     title="Clipping bands",
     shows="Gradients through the gamut of a small display whose primaries and white lie inside those of the page, so "
-    "that a control band can show the right colours; below it the same gradient by each method. Left: brighter at "
-    "one chromaticity. Right: more saturated at one luminance.",
+    "that a control band can show the right colours; below it the same gradient by each method. Left: brighter "
+    "at one chromaticity. Right: more saturated at one luminance.",
     claim="The control bands are shown without clipping; scaling and clamping begin with a corner in the gradient, "
     "which the eye sharpens to a Mach band.",
-    today="`cook` (the default) and `oklab` keep the hue; `soft` compresses before the boundary, and leaves less than a "
-    "quarter of the corner of scaling.",
+    today="`cook` (the default) and `oklab` keep the hue; `soft` compresses before the boundary, and leaves less "
+    "than a quarter of the corner of scaling.",
     draw=draw,
     commands=("illuminant gamut strips -o strips.png", "illuminant gamut study"),
 )

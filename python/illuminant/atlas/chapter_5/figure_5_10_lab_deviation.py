@@ -82,14 +82,14 @@ PLATE = Plate(
     number="5.10",
     title="Deviation of clipped colours in L*a*b*",
     shows="The distance $\\Delta E^*_{ab}$ between the colour that is asked for and the one that is shown, along "
-    "gradients that leave the gamut of a small display: brighter at one chromaticity above, more saturated at one "
-    "luminance below.",
+    "gradients that leave the gamut of a small display: brighter at one chromaticity above, more saturated at "
+    "one luminance below.",
     claim="Scaling or clamping is least wrong on every one of the gradients, as the book says: clamping on bright "
-    "orange and rose, scaling on bright yellow-green and blue; keeping $R + G + B$ costs at least a fifth more on "
-    "the mean.",
-    today="`cook`, the default, is `scale` where only brightness is too high, and on saturated colours keeps the hue to "
-    "a degree where clamping turns it by seven; `oklab` keeps lightness and hue exactly and pays with saturation. "
-    "`illuminant gamut study` has the measures of ten methods over three sets of colours.",
+    "orange and rose, scaling on bright yellow-green and blue; keeping $R + G + B$ costs at least a fifth more "
+    "on the mean.",
+    today="`cook`, the default, is `scale` where only brightness is too high, and on saturated colours keeps the hue "
+    "to a degree where clamping turns it by seven; `oklab` keeps lightness and hue exactly and pays with "
+    "saturation. `illuminant gamut study` has the measures of ten methods over three sets of colours.",
     draw=draw,
     commands=("illuminant gamut deviation -o deviation.png", "illuminant gamut study"),
 )

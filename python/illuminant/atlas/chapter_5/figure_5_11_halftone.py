@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from illuminant.atlas.plate import Check, Plate, Sheet
 
 CELL = "2x2"
@@ -23,7 +25,8 @@ def draw(quick: bool) -> Sheet:
     index = codes.astype(int).reshape(2, -1, 2).sum(axis=(0, 2))
     printed = np.floor((PRINTED_FACTOR - 1e-9) * total).astype(int)
     figure = Figure(figsize=(7.2, 5.2), dpi=DPI, layout="constrained", facecolor="white")
-    top, bottom = np.ravel(figure.subfigures(2, 1, height_ratios=(0.8, 1.0)))
+    parts: Any = figure.subfigures(2, 1, height_ratios=(0.8, 1.0))
+    top, bottom = parts
     draw_patterns(top, [CELL, "3x3"])
     axes = bottom.subplots()
     colour = line_look(0)["color"]
@@ -71,12 +74,12 @@ def draw(quick: bool) -> Sheet:
 PLATE = Plate(
     number="5.11",
     title="Halftone patterns of one bit",
-    shows="Five intensities from four pixels of one bit, by switching on none to all of them. The index of a pattern is "
-    "the mean of the cell times the number of levels, cut to a whole number.",
+    shows="Five intensities from four pixels of one bit, by switching on none to all of them. The index of a pattern "
+    "is the mean of the cell times the number of levels, cut to a whole number.",
     claim="A cell of 2 × 2 pixels shows 5 levels at one bit and 1,021 at eight, and a pixel that is on stays on at "
     "every higher level.",
-    printed="The factor for the sum of the four values is printed as slightly less than 1.5, which would ask for a sixth "
-    "pattern; it is 5/4 less a little (dashed: as printed).",
+    printed="The factor for the sum of the four values is printed as slightly less than 1.5, which would ask for a "
+    "sixth pattern; it is 5/4 less a little (dashed: as printed).",
     today="A dither gives as many levels without halving the resolution (figure 5.12); `halftone` keeps the mean of "
     "light rather than of codes, by which half of the pixels white no longer stand for a code of one half.",
     draw=draw,

@@ -70,13 +70,13 @@ PLATE = Plate(
     shows="A grey scale of three bits over 256 pixels: without dither, by Floyd and Steinberg's error diffusion with "
     "the weights that the book prints (3/8, 3/8, 1/4), by ordered dither in cells of 2 × 2 and 4 × 4, and by "
     "Knuth's dot diffusion in cells of 4 × 4.",
-    claim="A cell of 2 × 2 leaves a quarter of a step between two codes, and one of 4 × 4 a sixteenth; each band keeps "
-    "the mean of the gradation.",
+    claim="A cell of 2 × 2 leaves a quarter of a step between two codes, and one of 4 × 4 a sixteenth; each band "
+    "keeps the mean of the gradation.",
     printed="Floyd and Steinberg published four weights, 7/16, 3/16, 5/16 and 1/16; the three in print are a "
     "simplification, which leaves more noise at low frequencies. Both are drawn.",
     today="`bayer-8` and `blue-noise` leave no step but the rise of the gradation itself; at eight bits they cost "
-    "nothing that is seen. Blue noise has no regular texture and less noise at low frequencies than the printed "
-    "weights.",
+    "nothing that is seen. Blue noise has no regular texture and less noise at low frequencies than the "
+    "printed weights.",
     draw=draw,
     commands=("illuminant dither compare --enlarge 3 -o bands.png", "illuminant dither study"),
 )

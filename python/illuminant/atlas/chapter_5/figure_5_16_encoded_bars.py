@@ -50,12 +50,12 @@ def draw(quick: bool) -> Sheet:
 PLATE = Plate(
     number="5.16",
     title="EIA colour bars of an encoder",
-    shows="The pattern of EIA RS-189-A as an encoder makes it: seven bars of 75 % by falling luminance, and below them "
-    "−I, white of 100 %, +Q and black; levels in IRE, with black at the setup of 7.5.",
+    shows="The pattern of EIA RS-189-A as an encoder makes it: seven bars of 75 % by falling luminance, and below "
+    "them −I, white of 100 %, +Q and black; levels in IRE, with black at the setup of 7.5.",
     claim="The bars of 75 % stay within 100 IRE, and −I and +Q are carriers of the burst's 40 IRE on black: colours "
     "that need signals below zero, which no frame buffer holds.",
-    today="Digital systems have no setup and no subcarrier; the pattern lives on in SMPTE RP 219. Here it is encoded to "
-    "samples at four times the subcarrier, and its levels are read back from them.",
+    today="Digital systems have no setup and no subcarrier; the pattern lives on in SMPTE RP 219. Here it is encoded "
+    "to samples at four times the subcarrier, and its levels are read back from them.",
     draw=draw,
     commands=("illuminant pattern eia -o bars.png", "illuminant video scope bars.png -o line.png --line 100"),
 )

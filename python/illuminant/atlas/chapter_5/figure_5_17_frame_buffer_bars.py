@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from illuminant.atlas.plate import Check, Plate, Sheet
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 def draw(quick: bool) -> Sheet:
@@ -21,7 +26,7 @@ def draw(quick: bool) -> Sheet:
     )
     rows = [columns["bar"].index(name) for name in ("-I", "+Q")]
 
-    def read(table: dict[str, list[float] | list[str]], name: str) -> np.ndarray:
+    def read(table: dict[str, Any], name: str) -> NDArray[np.float64]:
         return np.array([float(table[name][row]) for row in rows])
 
     luminance, hue, carrier = "luminance read, IRE", "hue read, degrees", "carrier read, IRE peak to peak"
@@ -51,12 +56,12 @@ def draw(quick: bool) -> Sheet:
 PLATE = Plate(
     number="5.17",
     title="EIA colour bars for a frame buffer",
-    shows="The bars of figure 5.16 as they are loaded into a frame buffer through linear tables: to −I and +Q as much "
-    "$Y_t$ is added as leaves no signal below zero.",
-    claim="With luminance added, −I and +Q can be loaded into a frame buffer: the waveform rises by 19 and 13 IRE, and "
-    "the vectorscope shows what it showed.",
-    today="The same lift, for systems without setup, is in SMPTE RP 219: (0, 0.2456, 0.4125) and (0.2536, 0, 0.4703), "
-    "which `--setup 0` gives.",
+    shows="The bars of figure 5.16 as they are loaded into a frame buffer through linear tables: to −I and +Q as "
+    "much $Y_t$ is added as leaves no signal below zero.",
+    claim="With luminance added, −I and +Q can be loaded into a frame buffer: the waveform rises by 19 and 13 IRE, "
+    "and the vectorscope shows what it showed.",
+    today="The same lift, for systems without setup, is in SMPTE RP 219: (0, 0.2456, 0.4125) and (0.2536, 0, "
+    "0.4703), which `--setup 0` gives.",
     draw=draw,
     commands=(
         "illuminant pattern eia --size 512x486 -o bars.png",

@@ -30,6 +30,7 @@ def draw(quick: bool) -> Sheet:
         captions.append(f"blue gun alone, {name}")
         blues.append((blue[bar_row, middles], blue[split_row, middles]))
         differences.append(float(np.abs(blues[-1][0] - blues[-1][1]).max()))
+    step = float(values[-2, round(width * 5.83 / 7)].max())
     return Sheet(
         picture=picture_sheet(pictures, captions, columns=2),
         columns={
@@ -42,12 +43,7 @@ def draw(quick: bool) -> Sheet:
             Check("blue across the split, receiver right", differences[0], at_most=1 / 255),
             Check("blue across the split, hue 20° off", differences[1], at_least=0.1),
             Check("blue across the split, chroma 30 % low", differences[2], at_least=0.1),
-            Check(
-                "bar above black of PLUGE",
-                float(values[-2, round(width * 5.83 / 7)].max()),
-                at_least=0.039,
-                at_most=0.041,
-            ),
+            Check("bar above black of PLUGE", step, at_least=0.039, at_most=0.041),
         ),
     )
 
@@ -55,12 +51,12 @@ def draw(quick: bool) -> Sheet:
 PLATE = Plate(
     number="5.19",
     title="SMPTE colour bars for a frame buffer",
-    shows="SMPTE ECR 1-1978: bars of 75 %, below them the split bars (blue, black, magenta, black, cyan, black, white), "
-    "and a row of −I, white, +Q and PLUGE, whose bar below black a frame buffer cannot hold.",
+    shows="SMPTE ECR 1-1978: bars of 75 %, below them the split bars (blue, black, magenta, black, cyan, black, "
+    "white), and a row of −I, white, +Q and PLUGE, whose bar below black a frame buffer cannot hold.",
     claim="With red and green turned off, bars and split are one where chroma and hue of a receiver are right, and "
     "differ by a tenth of white or more where the hue is 20 degrees off or the chroma 30 % low.",
-    today="The signal is encoded, and decoded by receivers whose controls are set wrong, so that the adjustment can be "
-    "practised without a monitor; `illuminant calibrate` takes one through all of it.",
+    today="The signal is encoded, and decoded by receivers whose controls are set wrong, so that the adjustment can "
+    "be practised without a monitor; `illuminant calibrate` takes one through all of it.",
     draw=draw,
     commands=(
         "illuminant pattern smpte --size 640x486 -o bars.png",
