@@ -104,10 +104,10 @@ def instruments(values: Float64, signal: Signal) -> Figure:
     pattern, scope = figure.add_subplot(grid[:2, 1]), figure.add_subplot(grid[2:, 1])
     pattern.imshow(np.clip(values, 0.0, 1.0), extent=(0.0, 4.0, 0.0, 3.0), interpolation="nearest")
     pattern.set_axis_off()
-    pattern.set_title("The pattern", loc="center")
+    pattern.set_title("The pattern")
     scope.set_aspect("equal")
     scope.set_axis_off()
     chroma_vectors.draw(scope, signal, UPPER)
     scope.plot(*scopes.vectors(signal, LOWER).T, ".", color="black", markersize=2.0, zorder=2)
-    scope.set_title("Their colours on a vectorscope; black: the row below", fontsize=9, loc="center")
+    scope.set_title("Vectorscope; black: the row below")
     return figure

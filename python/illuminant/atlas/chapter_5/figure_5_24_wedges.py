@@ -35,9 +35,9 @@ def draw(quick: bool) -> Sheet:
     from illuminant.display.video.transmission import transmit
     from illuminant.plots import picture_sheet
 
-    width, height = (480, 180) if quick else (640, 480)
+    width, height = 480, 360
     screen = Screen(width, height)
-    coarsest, finest = 12, 480
+    coarsest, finest = 30, 360
     sent = wedges(screen, lines=finest, coarsest=coarsest)
     received = transmit(sent, decoder="comb")
     rows, lines = fineness(height, coarsest, finest)
@@ -54,7 +54,7 @@ def draw(quick: bool) -> Sheet:
         limit[axis] = float(mhz[below[0]]) if len(below) else float(mhz[-1])
     pictures, captions = [seen(sent), seen(received)], ["as displayed", "as received through NTSC"]
     return Sheet(
-        picture=picture_sheet(pictures, captions, columns=1),
+        picture=picture_sheet(pictures, captions, columns=2),
         columns={
             "lines per picture height": lines,
             "MHz": mhz,
@@ -81,7 +81,7 @@ PLATE = Plate(
     title="Resolving wedges along Y, I and Q",
     shows="Lines that run together, as light and dark, along I (orange and cyan) and along Q (purple and green), "
     "with the largest contrast that the signals allow; figures tell how many fit in the picture's height. "
-    "Below, the same after encoding and decoding.",
+    "Right: the same after encoding and decoding.",
     claim="I and Q merge to grey long before Y: in the signal half of the contrast is left at about 4.2, 1.3 and 0.5 "
     "MHz, the bandwidths of the standard.",
     today="The book's figure shows the eye's own weakness for fine lines of colour, which the bandwidths were made "
