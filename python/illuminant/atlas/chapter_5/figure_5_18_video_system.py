@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from illuminant.atlas.plate import Check, Plate, Sheet
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy as np
     from matplotlib.axes import Axes
     from matplotlib.patches import Patch
@@ -22,16 +24,27 @@ COLOURS = {
 }
 """Linear RGB of the NTSC primaries."""
 
-STATIONS = ("image", "frame buffer", "line", "encoder", "composite", "receiver", "guns", "light")
+STATIONS = (
+    "image",
+    "frame buffer",
+    "line",
+    "encoder",
+    "composite",
+    "receiver",
+    "guns",
+    "light",
+    "ΔE00",
+)
 UNITS = (
     "linear R G B",
     "codes, 8 bits",
-    "R G B, parts of white",
+    "R G B, parts\nof white",
     "Y I Q",
-    "IRE, low to high",
+    "IRE, lowest\nto highest",
     "Y I Q",
     "R G B",
     "X Y Z",
+    "right, line\nended twice,\nhue 10° off",
 )
 BETWEEN = (
     "γ 2.2, rounded",
@@ -48,7 +61,7 @@ def _three(values: NDArray[np.float64], form: str = "{:.3f}") -> str:
     return "\n".join(form.format(float(value)) for value in values).replace("-", "−")
 
 
-def _cells(found: Stations) -> list[str]:
+def _cells(found: Stations, faulty: Sequence[Stations]) -> list[str]:
     """The numbers of a colour, in the order of the stations."""
     low, high = found.composite
     return [
@@ -60,31 +73,33 @@ def _cells(found: Stations) -> list[str]:
         _three(found.received.round(6) + 0.0),
         _three(found.rgb),
         _three(found.xyz, "{:.1f}"),
+        "\n".join(f"{one.delta_e:.1f}" for one in (found, *faulty)),
     ]
 
 
-def _chain(axes: Axes, chains: dict[str, Stations]) -> None:
+def _chain(axes: Axes, chains: dict[str, Stations], faulty: dict[str, list[Stations]]) -> None:
     """Boxes from left to right, arrows with what is done between them, and the numbers of each colour below."""
-    from illuminant.display.displays import named
+    from illuminant.atlas.chapter_5.still_life import seen
     from illuminant.plots.style import GREY, INK
 
-    display = named("sRGB")
     axes.set(xlim=(-1.0, len(STATIONS) - 0.4), ylim=(-len(chains) - 0.05, 1.75))
     axes.set_axis_off()
     for k, (station, unit) in enumerate(zip(STATIONS, UNITS, strict=True)):
         box = {"boxstyle": "round,pad=0.35", "facecolor": "#e4edf6", "edgecolor": GREY, "linewidth": 0.8}
         axes.text(k, 0.9, station, ha="center", va="center", fontsize=8, bbox=box)
         axes.text(k, 0.3, unit, ha="center", va="center", fontsize=7, color=GREY)
-        if k:
+        if 0 < k <= len(BETWEEN):
             arrow = {"arrowstyle": "->", "color": INK, "linewidth": 0.9, "connectionstyle": "arc3,rad=-0.35"}
             axes.annotate("", (k - 0.25, 1.08), (k - 0.75, 1.08), arrowprops=arrow)
             axes.text(k - 0.5, 1.34, BETWEEN[k - 1], ha="center", va="bottom", fontsize=7, color=INK)
     for row, (name, found) in enumerate(chains.items()):
         y = -row - 0.5
         axes.axhline(y + 0.5, color="#d5d5d5", linewidth=0.6)
-        axes.add_patch(_patch(-0.9, y - 0.28, tuple(float(part) for part in display.encode(found.linear))))
+        axes.add_patch(
+            _patch(-0.9, y - 0.28, tuple(float(part) / 255 for part in seen(found.rgb[None, None])[0, 0]))
+        )
         axes.text(-0.9, y + 0.28, name, ha="left", va="center", fontsize=7.5)
-        for k, cell in enumerate(_cells(found)):
+        for k, cell in enumerate(_cells(found, faulty[name])):
             axes.text(k, y, cell, ha="center", va="center", fontsize=8, linespacing=1.3)
 
 
@@ -105,7 +120,7 @@ def draw(quick: bool) -> Sheet:
     double = {name: passed(linear, terminators=2) for name, linear in COLOURS.items()}
     turned = {name: passed(linear, hue_deg=10.0) for name, linear in COLOURS.items()}
     figure, axes = new_figure((9.0, 4.9))
-    _chain(axes, chains)
+    _chain(axes, chains, {name: [double[name], turned[name]] for name in chains})
     columns: dict[str, list[float] | list[str]] = {"colour": list(COLOURS)}
     for name in ("linear", "codes", "line", "yiq", "received", "rgb", "xyz"):
         for k in range(3):

@@ -17,7 +17,7 @@ def _raster(axes: Axes) -> None:
     """Two fields of 5½ lines, the beam's way back between lines and between fields."""
     from illuminant.plots.style import line_look
 
-    blank, half = {"linewidth": 0.7, "linestyle": ":"}, LINES / 2
+    half = LINES / 2
     for field, name in enumerate(("first field", "second field")):
         colour = line_look(field)["color"]
         done = 0.0
@@ -31,7 +31,9 @@ def _raster(axes: Axes) -> None:
             axes.plot([begin, end], [y + 0.0, y + 2.0 * (end - begin)], color=colour, label=label)
             done += end - begin
             if done < half - 1e-9:
-                axes.plot([end, 0.0], [y + 2.0 * (end - begin)] * 2, color=colour, **blank)
+                axes.plot(
+                    [end, 0.0], [y + 2.0 * (end - begin)] * 2, color=colour, linewidth=0.7, linestyle=":"
+                )
         last = 0.5 if field == 0 else 1.0
         axes.plot(
             [last, 0.5 if field == 0 else 0.0], [LINES, 0.0], color=colour, linewidth=0.9, linestyle="--"
@@ -51,32 +53,42 @@ def draw(quick: bool) -> Sheet:
 
     from illuminant.display.video.composite import encode
     from illuminant.display.video.scopes import waveform
-    from illuminant.display.video.standard import ACTIVE, ACTIVE_US, BLANKING_US, Raster, cycles, line_time_us
+    from illuminant.display.video.standard import (
+        ACTIVE,
+        ACTIVE_US,
+        BLANKING_US,
+        FIRST_ACTIVE,
+        SAMPLE_MHZ,
+        SAMPLES,
+        Raster,
+        cycles,
+        line_time_us,
+    )
     from illuminant.plots.style import DPI, GREY, line_look
 
     ramp = np.repeat(np.linspace(0.0, 1.0, ACTIVE)[None, :, None], 4, axis=0).repeat(3, axis=2)
-    time, level = waveform(encode(ramp), 2, finer=4)
-    whole = line_time_us()
+    time, levels = waveform(encode(ramp), 2, finer=4)
+    whole, seen_us = line_time_us(), FIRST_ACTIVE / SAMPLE_MHZ
+    begin = seen_us - BLANKING_US  # the line's blanking begins before its sync
+    time = np.where(time > seen_us + ACTIVE_US, time - SAMPLES / SAMPLE_MHZ, time)
+    order = np.argsort(time)
+    time, level = time[order], levels[0][order]
     figure = Figure(figsize=(9.0, 4.4), dpi=DPI, layout="constrained", facecolor="white")
     left, axes = figure.subplots(1, 2, width_ratios=(0.8, 1.0))
     _raster(left)
-    axes.plot(time, level[0], linewidth=0.9, color=line_look(0)["color"])
-    for begin, end, y, text in (
-        (0.0, whole, 128.0, f"a line: {whole:.2f} µs"),
-        (whole - ACTIVE_US, whole, 113.0, f"seen: {ACTIVE_US:g} µs"),
-        (0.0, whole - ACTIVE_US, 60.0, f"blanked:\n{BLANKING_US:g} µs"),
+    axes.plot(time, level, linewidth=0.9, color=line_look(0)["color"])
+    for start, end, y, text in (
+        (begin, begin + whole, 128.0, f"a line: {whole:.2f} µs"),
+        (seen_us, seen_us + ACTIVE_US, 113.0, f"seen: {ACTIVE_US:g} µs"),
+        (begin, seen_us, 60.0, f"blanked:\n{BLANKING_US:g} µs"),
     ):
-        axes.annotate(
-            "",
-            (end, y),
-            (begin, y),
-            arrowprops={"arrowstyle": "<->", "color": GREY, "shrinkA": 0, "shrinkB": 0},
-        )
-        axes.text((begin + end) / 2, y + 2, text, ha="center", va="bottom", fontsize=8)
+        arrow = {"arrowstyle": "<->", "color": GREY, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", (end, y), (start, y), arrowprops=arrow)
+        axes.text((start + end) / 2, y + 2, text, ha="center", va="bottom", fontsize=8)
     axes.text(2.4, -36, "sync", ha="center", fontsize=8)
     axes.text(6.7, 24, "burst", ha="center", fontsize=8)
     axes.set(
-        xlabel="time from the leading edge of sync, µs", ylabel="level, IRE", xlim=(0, 64), ylim=(-45, 140)
+        xlabel="time from the leading edge of sync, µs", ylabel="level, IRE", xlim=(-3, 64), ylim=(-45, 140)
     )
     axes.set_yticks(range(-40, 121, 20))
     axes.grid(True)
@@ -84,7 +96,7 @@ def draw(quick: bool) -> Sheet:
     raster = Raster()
     return Sheet(
         picture=figure,
-        columns={"time, µs": time, "level, IRE": level[0]},
+        columns={"time, µs": time, "level, IRE": level},
         checks=(
             Check("time of a line (eq 5.4)", whole, "µs", at_least=63.45, at_most=63.55),
             Check(

@@ -16,9 +16,7 @@ if TYPE_CHECKING:
 
     Float64 = NDArray[np.float64]
 
-__all__ = ["DISPLAY", "Stations", "passed"]
-
-DISPLAY = "NTSC 1953 D65"
+__all__ = ["Stations", "passed"]
 
 
 class Stations(NamedTuple):
@@ -58,6 +56,7 @@ def passed(linear: tuple[float, float, float], terminators: int = 1, hue_deg: fl
     import numpy as np
 
     from illuminant import color
+    from illuminant.atlas.chapter_5.still_life import DISPLAY
     from illuminant.display.displays import named
     from illuminant.display.picture import Picture
     from illuminant.display.video.composite import encode
