@@ -81,5 +81,8 @@ PLATE = Plate(
     "remain: in the third column even 6 bits show no band. The largest dark step of 8 bits falls from 2.2 to "
     "0.4 in L*.",
     draw=draw,
-    commands=("illuminant gamma --help", "illuminant display room.exr room.png --dither blue-noise"),
+    commands=(
+        "illuminant gamma banding -o banding.png",
+        "illuminant display room.exr room.png --dither blue-noise",
+    ),
 )

@@ -69,8 +69,9 @@ def draw(quick: bool) -> Sheet:
     ramp = np.repeat(np.linspace(0.0, 1.0, ACTIVE)[None, :, None], 4, axis=0).repeat(3, axis=2)
     time, levels = waveform(encode(ramp), 2, finer=4)
     whole, seen_us = line_time_us(), FIRST_ACTIVE / SAMPLE_MHZ
-    begin = seen_us - BLANKING_US  # the line's blanking begins before its sync
-    time = np.where(time > seen_us + ACTIVE_US, time - SAMPLES / SAMPLE_MHZ, time)
+    begin = seen_us - BLANKING_US
+    # What follows the fall at its end is drawn before its sync.
+    time = np.where(time > seen_us + ACTIVE_US + 0.5, time - SAMPLES / SAMPLE_MHZ, time)
     order = np.argsort(time)
     time, level = time[order], levels[0][order]
     figure = Figure(figsize=(9.0, 4.4), dpi=DPI, layout="constrained", facecolor="white")
