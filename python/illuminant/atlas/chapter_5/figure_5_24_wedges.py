@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     Float64 = NDArray[np.float64]
 
+LOWER = 3
 MHZ = {"Y": 4.2, "I": 1.3, "Q": 0.5}
 
 
@@ -40,18 +41,21 @@ def draw(quick: bool) -> Sheet:
     coarsest, finest = 30, 360
     sent = wedges(screen, lines=finest, coarsest=coarsest)
     received = transmit(sent, decoder="comb")
-    rows, lines = fineness(height, coarsest, finest)
+    # For its contrast each wedge stands alone, wide, and lower by a factor, which keeps the frequencies.
+    low = Screen(width, height // LOWER)
+    rows, lines = fineness(low.height, coarsest, finest)
     mhz = lines * width / (2.0 * height) / cycles(1.0)
     left: dict[str, Float64] = {}
     limit = {}
     for k, axis in enumerate(AXES):
-        alone = wedges(screen, axis=axis, lines=finest, coarsest=coarsest)
+        alone = wedges(low, axis=axis, lines=finest // LOWER, coarsest=coarsest // LOWER)
         back = transmit(alone, decoder="comb")
         middle = slice(width // 4, width - width // 4)
         before, after = (np.asarray(rgb_to_yiq(one), np.float64)[rows, middle, k] for one in (alone, back))
         left[axis] = _contrast(before, after)
-        below = np.flatnonzero(left[axis] < 0.5)
-        limit[axis] = float(mhz[below[0]]) if len(below) else float(mhz[-1])
+        # The comb mixes the first rows with the grey above them: the limit is where the contrast falls.
+        falls = np.flatnonzero((left[axis][:-1] >= 0.5) & (left[axis][1:] < 0.5))
+        limit[axis] = float(mhz[falls[0]]) if len(falls) else float("nan")
     pictures, captions = [seen(sent), seen(received)], ["as displayed", "as received through NTSC"]
     return Sheet(
         picture=picture_sheet(pictures, captions, columns=2),
