@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["TITLES", "Column", "columns", "panels", "today"]
+__all__ = ["TITLES", "Column", "columns", "panels", "share_bar", "share_map", "today"]
 
 TITLES = tuple(f"m = {m:.2f}" for m in SLOPES)
 
@@ -60,6 +60,44 @@ def today(m: float, quick: bool) -> Equilibrium:
     return equilibrium(m, HEIGHTS_NM[-1], tuple(map(float, angles)), 8_000)
 
 
+def share_map(axes: Any, x: Array, y: Array, share: Array, colours: str = "Blues_r") -> tuple[Any, Any]:
+    """Draw a share from 0 to 1, orange where it is neither, with lines at each quarter.
+
+    Args:
+        axes: of matplotlib.
+        x, y: of the columns and rows.
+        share: rows of y, columns of x.
+        colours: from 0 to 1, by a name of matplotlib.
+
+    Returns:
+        The filled contours and the lines, for `share_bar`.
+    """
+    import numpy as np
+    from matplotlib import colormaps
+
+    from illuminant.plots.style import INK
+
+    scale = colormaps[colours].with_extremes(under=IMPOSSIBLE, over=IMPOSSIBLE)
+    levels = np.r_[-TOLERANCE, np.linspace(0.05, 0.95, 19), 1.0 + TOLERANCE]
+    filled = axes.contourf(x, y, share, levels=levels, cmap=scale, vmin=0.0, vmax=1.0, extend="both")
+    return filled, axes.contour(x, y, share, levels=[0.25, 0.5, 0.75], colors=INK, linewidths=0.7)
+
+
+def share_bar(figure: Figure, axes: Sequence[Any], shown: tuple[Any, Any], what: str) -> None:
+    """The scale of maps, beside them.
+
+    Args:
+        figure: of the maps.
+        axes: of the maps.
+        shown: from `share_map`.
+        what: its label.
+    """
+    filled, lines = shown
+    bar = figure.colorbar(filled, ax=list(axes), ticks=(0, 0.25, 0.5, 0.75, 1.0), aspect=14, pad=0.01)
+    bar.set_label(what)
+    bar.add_lines(lines)
+
+
 def panels(
     columns: Sequence[Column], what: str, limits: tuple[float, float], colours: str = "Blues_r"
 ) -> Figure:
@@ -71,23 +109,16 @@ def panels(
         limits: of the axis of the sections.
         colours: of the maps from 0 to 1, by a name of matplotlib; white where nothing is amiss.
     """
-    import numpy as np
-    from matplotlib import colormaps
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-    from illuminant.plots.style import DPI, GREY, INK, PRINTED, TODAY, line_look
+    from illuminant.plots.style import DPI, GREY, PRINTED, TODAY, line_look
 
     figure = Figure(figsize=(9.0, 5.2), dpi=DPI, layout="constrained", facecolor="white")
     grid: Any = figure.subplots(2, len(columns), sharex=True, sharey="row", squeeze=False)
-    scale = colormaps[colours].with_extremes(under=IMPOSSIBLE, over=IMPOSSIBLE)
     shown: Any = None
-    lines: Any = None
     for number, (column, (above, below)) in enumerate(zip(columns, grid.T, strict=True)):
-        mesh = (column.theta_deg, column.sigma_nm, column.share)
-        levels = np.r_[-TOLERANCE, np.linspace(0.05, 0.95, 19), 1.0 + TOLERANCE]
-        shown = above.contourf(*mesh, levels=levels, cmap=scale, vmin=0.0, vmax=1.0, extend="both")
-        lines = above.contour(*mesh, levels=[0.25, 0.5, 0.75], colors=INK, linewidths=0.7)
+        shown = share_map(above, column.theta_deg, column.sigma_nm, column.share, colours)
         above.set(title=column.title, xlim=(0, 90), xticks=(0, 30, 60, 90))
         below.axhline(1.0, color=GREY, linewidth=0.6)
         below.axhline(0.0, color=GREY, linewidth=0.6)
@@ -102,9 +133,7 @@ def panels(
         if number == 0:
             above.set_ylabel("height σ, nm")
             below.set_ylabel(what)
-    bar = figure.colorbar(shown, ax=grid[0].tolist(), ticks=(0, 0.25, 0.5, 0.75, 1.0), aspect=14, pad=0.01)
-    bar.set_label(what)
-    bar.add_lines(lines)
+    share_bar(figure, grid[0].tolist(), shown, what)
     entries: list[Line2D] = [Line2D([], [], **line_look(i)) for i in range(len(HEIGHTS_NM))]
     labels = [f"σ = {height:g} nm" for height in HEIGHTS_NM]
     if any(column.printed is not None for column in columns):

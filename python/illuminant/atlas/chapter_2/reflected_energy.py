@@ -220,20 +220,28 @@ class Equilibrium:
 
 
 @cache
-def equilibrium(m: float, sigma_nm: float | None, theta_deg: tuple[float, ...], draws: int) -> Equilibrium:
+def equilibrium(
+    m: float,
+    sigma_nm: float | None,
+    theta_deg: tuple[float, ...],
+    draws: int,
+    distribution: str = "beckmann",
+) -> Equilibrium:
     """An audit of the model `general` with a metal that reflects all.
 
     Args:
-        m: slope.
+        m: slope, or α of GGX.
         sigma_nm: height, or None for one that is much higher than a wavelength.
         theta_deg: angles of incidence.
-        draws: directions for each angle; the noise of the total is about 0.1/√draws.
+        draws: directions for each angle; the noise of the total is about 0.3/√draws.
+        distribution: of slopes, beckmann or ggx.
     """
     import numpy as np
 
     from illuminant import auditing
 
-    table = {"kind": "conductor", "n": 1.0, "k": 1e4, "roughness": m}
+    table: dict[str, str | float] = {"kind": "conductor", "n": 1.0, "k": 1e4, "roughness": m}
+    table["distribution"] = distribution
     if sigma_nm is not None:
         table["sigma_nm"] = sigma_nm
     found = auditing.audit(table, angles_deg=theta_deg, wavelengths_nm=[WAVELENGTH_NM], draws=draws)[0]
