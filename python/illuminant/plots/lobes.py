@@ -29,13 +29,13 @@ NAMES = {
 LARGEST_BETA_DEG = {"phong": 44.9}
 """Beyond 45° Phong's lobe, which is seen at twice β from the mirror direction, never falls to half; 89.9° of others."""
 
-CELL = (3.0, 1.85)
+CELL = (3.0, 1.95)
 """Width and height of one polar plot, in inches."""
 
-BOX = 2.3
+BOX = 2.2
 """Diameter of its circle."""
 
-BELOW = 0.3
+BELOW = 0.32
 """What its labels take below it."""
 
 LEGEND = 0.35
@@ -119,7 +119,7 @@ def distributions(
                 axes.set_rticks([0.5, 1.0])
                 axes.set_thetagrids([-90, -60, -30, 0, 30, 60, 90])
                 axes.grid(True)
-                axes.set_title(f"β = {beta:g}°, θ = {theta:g}°", x=-0.08, y=0.85)
+                axes.set_title(f"β = {beta:g}°, θ = {theta:g}°", x=-0.08, y=0.86, pad=0)
                 axes.plot(np.radians([-theta, -theta]), [0.0, 1.0], color=GREY, linewidth=0.8, zorder=1.2)
                 lines = [
                     axes.plot(

@@ -25,7 +25,7 @@ def draw(quick: bool) -> Sheet:
     from illuminant import optics
     from illuminant.plots.style import DPI, GREY, PRINTED, line_look
 
-    g = np.unique(np.r_[np.geomspace(0.1, 100.0, 61 if quick else 241), 5.0, 8.0])
+    g = np.unique(np.r_[np.geomspace(0.1, 100.0, 61 if quick else 121), 5.0, 8.0])
 
     def three(m: float, tangent: float) -> list[Any]:
         cosine = 1.0 / np.sqrt(1.0 + tangent**2)

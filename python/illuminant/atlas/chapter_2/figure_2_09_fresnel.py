@@ -23,7 +23,7 @@ def draw(quick: bool) -> Sheet:
     from illuminant import optics, spectra
     from illuminant.plots.style import DPI, INK, PRINTED, TODAY, line_look
 
-    angle = np.linspace(0.0, 90.0, 181 if quick else 721)
+    angle = np.linspace(0.0, 90.0, 181 if quick else 361)
     cosine = np.cos(np.radians(angle)).clip(0.0, 1.0)
     kinds = ("perpendicular", "parallel", "")
     glass = [np.asarray(optics.fresnel_dielectric(cosine, GLASS, kind)) for kind in kinds]

@@ -55,22 +55,23 @@ def draw(quick: bool) -> Sheet:
     for axes in panels:
         axes.set(xlabel="angle of view, degrees", xlim=(-90, 90), ylim=(0, 1.03), xticks=range(-90, 91, 30))
         axes.grid(True)
-        axes.legend(loc="lower center")
+    left.legend(loc=(0.52, 0.03))
+    right.legend(loc="lower center")
 
     step = np.radians(view[1] - view[0])
     bend = [np.abs(np.diff(curve, 2)) / step for curve in (grooves[2], sancer[1])]
     inner = slice(20, -20)
     kink = float(view[1:-1][inner][bend[0][inner].argmax()])
     columns: dict[str, Any] = {"view, degrees": view}
-    columns |= {
-        f"Torrance-Sparrow, light {light:g}°": c for light, c in zip(LIGHTS_DEG, grooves, strict=True)
-    }
-    columns |= {f"Sancer, light 60°, m = {m:g}": c for m, c in zip(SLOPES, sancer, strict=True)}
-    columns["Smith GGX, light 60°, alpha = 0.5"] = ggx
+    for light, curve in zip(LIGHTS_DEG, grooves, strict=True):
+        columns[f"Torrance-Sparrow, light {light:g}°"] = curve
+    for m, curve in zip(SLOPES, sancer, strict=True):
+        columns[f"Sancer, light {LIGHT_DEG:g}°, m = {m:g}"] = curve
+    columns[f"Smith GGX, light {LIGHT_DEG:g}°, alpha = {SLOPES[1]:g}"] = ggx
     mirrored = max(float(np.abs(c - c[::-1]).max()) for c in sancer)
     return Sheet(
         picture=figure,
-        columns=columns,
+        columns={name: curve[::8] for name, curve in columns.items()},
         checks=(
             Check("V-groove kink with the light at 60° (60° + θ/3)", kink, "°", 79.5, 80.5),
             Check("leap of the slope there", float(bend[0][inner].max()), "per radian", at_least=1.0),

@@ -15,7 +15,7 @@ def draw(quick: bool) -> Sheet:
     """Maps and sections; `general` beside them."""
     import numpy as np
 
-    sigma, theta = np.linspace(0.0, 200.0, 41), np.r_[0:86:1, 86:89.51:0.25]
+    sigma, theta = np.linspace(0.0, 200.0, 21), np.r_[0:80:2.5, 80:89.6:0.5]
     heights = np.array(HEIGHTS_NM)
     shown, departure = [], 0.0
     for m, title in ((None, "without G"), *zip(SLOPES, TITLES, strict=True)):

@@ -77,5 +77,5 @@ PLATE = Plate(
     today='The finishes are materials by name (`finish = "side mill"`), with slopes of our own; the two directions of '
     "the grain make an anisotropic surface.",
     draw=draw,
-    commands=("illuminant audit --help",),
+    commands=("illuminant audit 'aluminium, side mill'",),
 )

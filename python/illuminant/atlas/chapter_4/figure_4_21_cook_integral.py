@@ -90,14 +90,16 @@ def draw(quick: bool) -> Sheet:
     figure.legend(entries, labels, loc="outside lower center", ncols=7, fontsize=7.5, columnspacing=1.2)
 
     grid_theta, grid_beta = (one.ravel() for one in np.meshgrid(theta, beta))
+    nothing = np.full(general.size, np.nan)
     return Sheet(
         picture=figure,
         columns={
-            "beta, degrees": grid_beta,
-            "theta, degrees": grid_theta,
-            "D only": facets.ravel(),
-            "D and G": both.ravel(),
-            "GGX and Smith, one facet": ggx.ravel(),
+            "beta, degrees": np.r_[grid_beta, np.repeat(tried, len(CUTS_DEG))],
+            "theta, degrees": np.r_[grid_theta, np.tile(CUTS_DEG, len(tried))],
+            "D only": np.r_[facets.ravel(), nothing],
+            "D and G": np.r_[both.ravel(), nothing],
+            "GGX and Smith, one facet": np.r_[ggx.ravel(), nothing],
+            "today: GGX, several facets": np.r_[np.full(ggx.size, np.nan), general.ravel()],
         },
         checks=(
             Check(
