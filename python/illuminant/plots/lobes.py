@@ -119,7 +119,7 @@ def distributions(
                 axes.set_rticks([0.5, 1.0])
                 axes.set_thetagrids([-90, -60, -30, 0, 30, 60, 90])
                 axes.grid(True)
-                axes.set_title(f"β = {beta:g}°, θ = {theta:g}°", x=-0.08, y=0.86, pad=0)
+                axes.set_title(f"β = {beta:g}°, θ = {theta:g}°", x=-0.08, y=0.89, pad=0)
                 axes.plot(np.radians([-theta, -theta]), [0.0, 1.0], color=GREY, linewidth=0.8, zorder=1.2)
                 lines = [
                     axes.plot(
