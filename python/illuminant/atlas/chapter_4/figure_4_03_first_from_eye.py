@@ -32,7 +32,7 @@ def draw(quick: bool) -> Sheet:
             "in balance": balance,
         },
         checks=(
-            Check("part of patch 3 in balance that is missing", float(missing), at_least=0.05, at_most=0.6),
+            Check("part of patch 3 in balance that is missing", float(missing), at_least=0.01, at_most=0.6),
             Check("the same with ambient light, over that without", float(left / missing), at_most=0.5),
             Check("patches brighter than in balance", float((seen > balance).sum()), at_most=0.0),
         ),

@@ -33,7 +33,7 @@ def draw(quick: bool) -> Sheet:
             Check(
                 "largest part missing after the first step",
                 float((1 - first / balance).max()),
-                at_least=0.05,
+                at_least=0.01,
                 at_most=0.6,
             ),
             Check(

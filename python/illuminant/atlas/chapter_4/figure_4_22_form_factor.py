@@ -135,7 +135,5 @@ PLATE = Plate(
     today="Rays that start all over an element (`rays:N`, what is taken if nothing is said) have no such error at any "
     "distance, and noise instead.",
     draw=draw,
-    commands=(
-        "illuminant radiosity solve scenes/cornell.toml --form-factors area:16 -o cornell.solution",
-    ),
+    commands=("illuminant radiosity solve scenes/cornell.toml --form-factors area:16 -o cornell.solution",),
 )

@@ -25,13 +25,13 @@ __all__ = ["EYE", "LIGHT", "PATCHES", "REFLECTANCES", "Room", "draw_room", "room
 
 # Corner and edges, z upwards, metres; the front is the side of the cross product of the edges.
 PATCHES = {
-    "patch 1": ((-1.25, -0.7, 0.25), (0.0, 1.4, 0.0), (-0.35, 0.0, 1.2)),
-    "patch 2": ((1.25, 0.7, 0.25), (0.0, -1.4, 0.0), (0.35, 0.0, 1.2)),
+    "patch 1": ((-1.6, -0.5, 0.25), (0.5, 1.2, 0.0), (-0.35, 0.0, 1.2)),
+    "patch 2": ((1.1, 0.7, 0.25), (0.5, -1.2, 0.0), (0.35, 0.0, 1.2)),
     "patch 3": ((-0.9, -0.7, 0.0), (1.8, 0.0, 0.0), (0.0, 1.4, 0.0)),
 }
 LIGHT = ((-0.3, 0.3, 2.1), (0.6, 0.0, 0.0), (0.0, -0.6, 0.0))
 REFLECTANCES = (0.7, 0.5, 0.6)
-EYE = (0.75, -2.6, 1.1)
+EYE = (1.5, -2.4, 0.4)
 
 
 class Room(NamedTuple):
@@ -106,7 +106,7 @@ def draw_room(
     from illuminant.plots.style import GREY, line_look
 
     figure, (axes,) = new_sketches((6.4, 4.6))
-    sketch = Sketch(axes, View(-84.0, 18.0))
+    sketch = Sketch(axes, View(-88.0, 20.0))
     axes.set_title(title)
     middles = {"light": _corners(*LIGHT).mean(axis=0), "eye": np.array(EYE)}
     # The floor lies behind the others.
