@@ -166,9 +166,9 @@ def _munsell(sketch: Any, plain: bool) -> None:
             for chroma in range(4, most + 1, 4):
                 names.append(f"{hue} {value}/{chroma}")
                 places.append([chroma * np.cos(angle), chroma * np.sin(angle), 2.2 * value])
-    rgb = np.clip(
-        np.asarray(xyz_to_rgb(munsell_to_xyz(names), "sRGB", white="C", adaptation="bradford")), 0.0, 1.0
-    )
+    # Munsell's renotation is colour-science's, which takes seconds to import.
+    xyz = np.full((len(names), 3), 0.5) if plain else munsell_to_xyz(names)
+    codes = np.clip(np.asarray(xyz_to_rgb(xyz, encoded=True, white="C", adaptation="Bradford")), 0.0, 1.0)
     at = np.array(places)
     sketch.line([[0, 0, 1.0], [0, 0, 21.0]], linewidth=0.9, zorder=1)
     sketch.label([0, 0, 21.0], "white", (0, 7), fontsize=7.5)

@@ -126,9 +126,9 @@ def _found(distance: float, method: str, elements: int) -> float:
 PLATE = Plate(
     number="4.22",
     title="The form factor",
-    shows="The form factor relates what patch $n$ receives to what patch $m$ sends, $F_{m,n} = \\frac{1}{A_n}\\iint "
-    "\\cos\\theta_n\\cos\\theta_m\\,dA_m\\,dA_n/r_{m,n}^2$ (eq 4.29). To the right the error of three ways to it, divided "
-    "by $\\pi$, for opposite squares, against their distance.",
+    shows="The form factor relates what patch $n$ receives to what patch $m$ sends, "
+    "$F_{m,n} = \\frac{1}{A_n}\\iint \\cos\\theta_n\\cos\\theta_m\\,dA_m\\,dA_n/r_{m,n}^2$ (eq 4.29). To the right "
+    "the error of three ways to it, divided by $\\pi$, for opposite squares, against their distance.",
     claim="A hemi-cube stands for a whole element, so it errs where patches are near each other, and cutting them "
     "finer mends that.",
     printed="Form factors of the book are for intensities, $\\pi$ times those of most texts since.",
