@@ -90,9 +90,8 @@ PLATE = Plate(
     "$\\lambda_{n,e}$; in the middle the reconstruction functions, of height 1, whose first and last go on beyond the "
     "visible; below a reflectance that was sampled and built again. The boxes are of one width here; the book "
     "moves their bounds by search.",
-    claim="A flat curve is sampled and built again exactly, as no function of area 1 and height 1 in its place "
-    "could fail to do; any other becomes steps, and products of reflectances under D65 come out at least twice as "
-    "wrong as with four fitted samples.",
+    claim="A flat curve is sampled and built again exactly; any other becomes steps, and products of reflectances "
+    "under D65 come out at least twice as wrong as with four fitted samples.",
     today="`fitted:N` chooses wavelengths and weights for the lamps and materials of a scene; `hall:N` is this method "
     "with the bounds searched, `hall:N:even` with boxes of one width.",
     draw=draw,

@@ -47,11 +47,11 @@ def draw(quick: bool) -> Sheet:
     )
     sketch.arrow([x[on].min() + 2, MARKED], [x[on].min() + 6, MARKED], colour=red)
     sketch.label([x[on].min(), MARKED], "start of the span", (-12, 10), color=red, ha="right", fontsize=8.5)
-    for name, corner, value, shift in zip("ABC", corners, values, ((-14, -8), (14, 0), (0, 12)), strict=True):
+    for name, corner, value, shift in zip("ABC", corners, values, ((-14, -8), (26, 0), (0, 12)), strict=True):
         sketch.dot(corner)
         sketch.label(corner, f"{name}: {value:g}", shift)
     edge = corners[2] - corners[0]
-    middle = corners[0] + 0.62 * edge
+    middle = corners[0] + 0.2 * edge
     sketch.arrow(middle - [1.0, 0.0], middle + 0.2 * edge - [1.0, 0.0])
     sketch.label(middle - [1.0, 0.0], "rate per\nscanline", (-24, 10), fontsize=8.5)
     sketch.label([x[on].max() + 0.5, MARKED], "rate per pixel", (6, 6), color=red, fontsize=8.5, ha="left")
