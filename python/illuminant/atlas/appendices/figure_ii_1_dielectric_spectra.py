@@ -1,4 +1,4 @@
-"""Figure II.1: spectral curves of dielectrics: what their surfaces reflect at normal incidence (book II.1.1, eq III.16)."""
+"""Figure II.1: what surfaces of dielectrics reflect at normal incidence, by wavelength (book II.1.1, eq III.16)."""
 
 from __future__ import annotations
 
