@@ -76,5 +76,5 @@ PLATE = Plate(
     today="The missing share is light that hits a second facet. It is followed there (`general`), so a perfect mirror "
     "however rough gives back all, and nothing has to be called diffuse.",
     draw=draw,
-    commands=("illuminant audit --help",),
+    commands=('illuminant audit "copper, circular mill"',),
 )

@@ -167,5 +167,5 @@ PLATE = Plate(
     "a gamut, Oklab (Ottosson 2020) is fitted to what eyes call one hue. Blue, which bends by 30° there when mixed "
     "with white, shows how much: eyes see it turn purple (Abney 1909).",
     draw=draw,
-    commands=("illuminant gamut --help",),
+    commands=("illuminant gamut deviation -o deviation.png",),
 )

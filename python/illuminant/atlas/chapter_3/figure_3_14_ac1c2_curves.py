@@ -60,6 +60,6 @@ PLATE = Plate(
     draw=draw,
     commands=(
         "illuminant spectra plot --observer 1931 --space ac1c2 -o ac1c2.svg",
-        "illuminant spectra compare --help",
+        "illuminant spectra compare --sampling meyer --sampling fitted:4 --lamp D65",
     ),
 )

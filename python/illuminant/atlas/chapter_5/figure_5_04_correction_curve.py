@@ -51,6 +51,7 @@ def draw(quick: bool) -> Sheet:
     inset.plot(np.arange(13), srgb.entries[:13], **TODAY, marker="o", markersize=3)
     inset.plot(np.arange(13), table.entries[:13], marker=".", color=line_look(0)["color"], linewidth=0.8)
     inset.set(xlim=(0, 12), ylim=(0, 70))
+    inset.set_xticks(range(0, 13, 4))
     inset.set_title("near black", fontsize=8.5)
     inset.grid(True)
     lost = lost_levels(table)

@@ -60,5 +60,8 @@ PLATE = Plate(
     today="The loss has a number: ΔE00, where a γ' of 2.6 in place of 2.2 costs more than 4 in the mean. Pictures "
     "carry the curve for which they were made, so no one has to guess it.",
     draw=draw,
-    commands=("illuminant gamma drift -o drift.png", "illuminant gamma remap --help"),
+    commands=(
+        "illuminant gamma drift -o drift.png",
+        'illuminant gamma remap old.png new.png --from "book NTSC" --to sRGB',
+    ),
 )
