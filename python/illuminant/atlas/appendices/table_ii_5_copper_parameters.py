@@ -90,7 +90,7 @@ PLATE = Plate(
     shows="The multipliers $C_{Ka}$, $C_{Kd}$ and $C_{Ks}$ and Blinn's exponent $N_s$ of the spheres of figure II.4: "
     "rows 1 and 2 under a lamp alone, rows 3 and 4 with a reflection map. All three spectral curves are that of "
     "copper. The plot sets them against β, the half-width of the highlight.",
-    claim="As highlights widen, the specular multiplier falls and the diffuse one rises, in every step once a "
+    claim="As highlights widen, the specular multiplier falls in every step, and the diffuse one never does once a "
     "misprint is corrected; with a reflection map the specular part is more dominant at each width.",
     printed="$C_{Ka}$ and $C_{Kd}$ of row 1, column 3 are printed 0.05 between neighbours of 0.35 (cross); 0.35 is "
     "used. The first line of each row is labelled $C_{ks}$ and is $C_{Ka}$.",
