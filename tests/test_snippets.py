@@ -123,6 +123,8 @@ def shrunk(arguments: Sequence[str]) -> list[str]:
         if tuple(arguments[: len(name)]) == name and "--pixel" not in arguments and arguments[1:] != ["list"]:
             kept = list(arguments)
             for option, value in options.items():
+                if "--only" in kept and option in ("--techniques", "--illuminations"):
+                    continue
                 if option in kept:
                     kept[kept.index(option) + 1] = value
                 elif option not in UNASKED:
