@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from illuminant.core import core
 from illuminant.difference import diff
@@ -21,6 +21,9 @@ from illuminant.image import Image, check_output
 from illuminant.rendering import render
 from illuminant.scene import Scene, load
 
+if TYPE_CHECKING:
+    from illuminant.display.picture import Picture
+
 __all__ = [
     "CAPTIONS",
     "Comparison",
@@ -28,6 +31,7 @@ __all__ = [
     "check_layout",
     "check_sheet",
     "compare",
+    "contact_sheet",
     "pairs",
     "pairs_named",
     "save_sheet",
@@ -216,19 +220,17 @@ def check_sheet(path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def save_sheet(
-    path: str | os.PathLike[str],
+def contact_sheet(
     found: Sequence[Comparison],
     exposure: float | None = None,
     *,
     columns: int | None = None,
     captions: str = "numbers",
     command: str | None = None,
-) -> None:
-    """Save all images as one contact sheet, pixel for pixel and all at one exposure, with captions under them.
+) -> Picture:
+    """All images on one contact sheet, pixel for pixel and all at one exposure, with captions under them.
 
     Args:
-        path: a PNG.
         found: what `compare` gave.
         exposure: factor from Y to the display's 0 to 1; default that of the reference.
         columns: so many in a row, in their order; default the techniques one below the other.
@@ -236,37 +238,47 @@ def save_sheet(
         command: that made it, without the file it writes; `illuminant info` shows it.
 
     Raises:
-        ImageError, UsageError: the file cannot be written, or there is no such caption.
+        UsageError: there is no such caption, or no column.
     """
     import json
-    from typing import cast
 
+    from illuminant.display.displays import named
     from illuminant.display.picture import Picture
     from illuminant.plots.contact_sheet import sheet
 
-    target = check_sheet(path)
     check_layout(columns, captions)
-    first = found[0].image
     used = exposure or found[0].exposure
     if columns is None:
         names = dict.fromkeys(one.pair.technique for one in found)
         rows = [[one for one in found if one.pair.technique == name] for name in names]
     else:
         rows = [list(found[at : at + columns]) for at in range(0, len(found), columns)]
-    codes = sheet(
-        [
-            [
-                (cast("Any", one.image.shown(exposure=used).picture.codes), _caption(one, captions))
-                for one in row
-            ]
-            for row in rows
-        ]
-    )
-    settings = {"scene": str(first.settings.get("scene", "")), "pairs": [_pair(one.pair) for one in found]}
+    shown = {id(one): one.image.shown(exposure=used).picture.codes for one in found}
+    codes = sheet([[(shown[id(one)], _caption(one, captions)) for one in row] for row in rows])
+    scene = str(found[0].image.settings.get("scene", ""))
+    settings = {"scene": scene, "pairs": [_pair(one.pair) for one in found]}
     if command:
         settings["command"] = command
     text = {"Exposure": f"{used:.9g}", "Settings": json.dumps(settings)}
-    Picture(codes, cast("Any", "sRGB")).save(target, text)
+    return Picture(codes, named("sRGB"), text=text)
+
+
+def save_sheet(
+    path: str | os.PathLike[str], found: Sequence[Comparison], exposure: float | None = None, **layout: Any
+) -> None:
+    """Save all images as one contact sheet.
+
+    Args:
+        path: a PNG.
+        found: what `compare` gave.
+        exposure: as for `contact_sheet`.
+        layout: columns, captions and command, as for `contact_sheet`.
+
+    Raises:
+        ImageError, UsageError: the file cannot be written, or the layout cannot be.
+    """
+    target = check_sheet(path)
+    contact_sheet(found, exposure, **layout).save(target)
 
 
 def check_layout(columns: int | None, captions: str) -> None:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Bytes = NDArray[np.uint8]
+    Codes = NDArray[np.uint8] | NDArray[np.uint16]
 
 __all__ = ["GAP", "sheet"]
 
@@ -32,7 +33,7 @@ LEADING = 1.3
 
 
 def sheet(
-    rows: Sequence[Sequence[tuple[Bytes, Sequence[str]]]],
+    rows: Sequence[Sequence[tuple[Codes, Sequence[str]]]],
     *,
     title_size: float = 13.0,
     note_size: float = 11.0,
