@@ -1,6 +1,7 @@
 """The manual points at what exists: links, pages in the index, scenes, pictures; test_snippets.py runs its snippets."""
 
 import re
+import shlex
 from pathlib import Path
 
 import illuminant
@@ -68,6 +69,15 @@ def test_every_picture_is_small_shown_and_made_by_illuminant(repository):
             continue
         settings = illuminant.Image.open(picture).settings
         assert settings["scene"].endswith(".toml"), picture
+
+
+def test_the_banner_was_made_by_the_command_under_it(repository):
+    banner = illuminant.Image.open(repository / "docs" / "images" / "banner.png")
+    command = f"{banner.settings['command']} -o banner.png"
+    printed = re.search(
+        r"^```sh long\n(illuminant compare .*)\n```$", (repository / "README.md").read_text(), re.M
+    )
+    assert sorted(shlex.split(printed[1])) == sorted(shlex.split(command))
 
 
 def test_the_readme_says_what_data_other_people_own(repository):
