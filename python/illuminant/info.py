@@ -256,6 +256,8 @@ def remake(
 
     if not settings.get("scene") or "developed" in settings:
         return None
+    if isinstance(settings.get("command"), str):  # of a contact sheet
+        return f"{settings['command']} -o {shlex.quote(str(path))}"
     words = ["illuminant", "render", str(settings["scene"]), "-o", str(path)]
     samples = settings.get("samples")
     if samples is not None:

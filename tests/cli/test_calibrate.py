@@ -2,8 +2,6 @@
 
 import io
 import json
-import re
-import shlex
 import sys
 
 import numpy as np
@@ -190,28 +188,3 @@ def test_a_record_of_the_last_days_stays_readable(folder, capsys):
     (folder / "log.csv").write_bytes(before.replace(b"9999-07-02", b"9999-12-01"))
     assert run(["calibrate", "log", "log.csv"]) == 2
     assert "has no next one" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(("page", "least"), [("calibration.md", 10), ("test-patterns.md", 13)])
-def test_what_the_pages_ask_the_reader_to_type_runs(repository, folder, page, least):
-    text = (repository / "docs" / page).read_text(encoding="utf-8")
-    lines = [
-        line
-        for block in re.findall(r"^```sh runnable\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-        for line in block.splitlines()
-    ]
-    assert len(lines) >= least
-    for line in lines:
-        program, *words = shlex.split(line, comments=True)
-        # Pictures of the default size take longer than they tell.
-        small = ["--size", "160x120"] if words[0] == "pattern" and words[1] != "list" else []
-        assert program == "illuminant" and run([*words, *small]) == 0, line
-
-
-def test_the_program_of_the_page_prints_what_the_page_says(repository, capsys):
-    text = (repository / "docs" / "calibration.md").read_text(encoding="utf-8")
-    program, wanted = re.search(
-        r"^```python runnable\n(.*?)^```\n\n```text output\n(.*?)^```$", text, re.MULTILINE | re.DOTALL
-    ).groups()
-    exec(compile(program, "calibration.md", "exec"), {})
-    assert capsys.readouterr().out == wanted

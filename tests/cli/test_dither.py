@@ -1,8 +1,6 @@
 """`illuminant dither`: dithers from the command line."""
 
 import json
-import re
-import shlex
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -161,15 +159,7 @@ def test_mistakes_are_sentences(inside: Command, photograph: Path, tmp_path: Pat
     assert not list(tmp_path.glob("h.*")) and not (tmp_path / "a.png").exists()
 
 
-def test_the_page_of_dithers_prints_what_it_says(inside: Command, repository: Path, tmp_path: Path) -> None:
+def test_the_page_of_dithers_names_them_all(repository: Path) -> None:
     text = (repository / "docs" / "dither.md").read_text(encoding="utf-8")
-    blocks = re.findall(
-        r"^```sh runnable\n(.*?)^```$(?:\n\n```text output\n(.*?)^```$)?", text, re.MULTILINE | re.DOTALL
-    )
-    assert len(blocks) >= 3
-    for command, output in blocks:
-        done = inside(*shlex.split(command)[1:], cwd=tmp_path)
-        assert done.returncode == 0, command
-        assert not output or done.stdout == output, command
     for name in dither.names():
         assert f"`{name}`" in text or f"\n{name} " in text

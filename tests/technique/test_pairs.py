@@ -10,6 +10,7 @@ import illuminant
 from illuminant.cli import run
 from illuminant.comparison import compare, pairs, save_sheet
 from illuminant.errors import UsageError
+from illuminant.plots.contact_sheet import GAP
 from illuminant.rendering import replay
 from illuminant.scene import load
 from illuminant.settings import SOLVED
@@ -202,7 +203,56 @@ def test_a_contact_sheet_is_laid_out(scene, tmp_path):
     assert [one.pair.illumination for one in found] == ["phong", "hall"]
     assert all(one.delta_e > 0 and one.energy > 0 for one in found)
     save_sheet(tmp_path / "sheet.png", found)
-    assert (tmp_path / "sheet.png").stat().st_size > 5_000
+    sheet = illuminant.display.picture.Picture.open(tmp_path / "sheet.png").codes
+    assert sheet.shape[1] == 2 * 32 + 3 * GAP, "techniques one below the other"
+    assert (sheet[-30:] < 128).any(), "with their numbers under them"
+
+
+def test_a_sheet_of_chosen_pairs_holds_their_pixels_at_one_exposure_and_says_how_it_was_made(
+    scenes, tmp_path, capsys
+):
+    path = tmp_path / "sheet.png"
+    options = ["--size", "48x27", "--samples", "2", "--columns", "2", "--captions", "difference"]
+    only = ["--only", "phong:phong,path:general,raytrace:whitted"]
+    assert run(["compare", str(scenes / "whitted.toml"), *only, *options, "-o", str(path)]) == 0
+    table = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in table[1:]] == ["phong", "path", "raytrace"], "in the order asked for"
+    sheet = illuminant.display.picture.Picture.open(path)
+    one = illuminant.render(
+        scenes / "whitted.toml", technique="raytrace", illumination="whitted", size=(48, 27), samples=2
+    )
+    reference = illuminant.render(
+        scenes / "whitted.toml", technique="path", illumination="general", size=(48, 27), samples=2
+    )
+    used = float(sheet.text["Exposure"])
+    assert used == pytest.approx(reference.exposure or reference.auto_exposure())
+    codes = one.shown(exposure=used).picture.codes
+    below = (sheet.height - GAP) // 2 + GAP
+    assert np.array_equal(sheet.codes[below : below + 27, GAP : GAP + 48], codes), "pixel for pixel"
+    assert sheet.width == 2 * 48 + 3 * GAP
+    assert run(["info", str(path)]) == 0
+    again = capsys.readouterr().out.splitlines()[-1].split()
+    assert again[:2] == ["illuminant", "compare"] and again[-2:] == ["-o", str(path)]
+    assert {*only, *options} <= set(again)
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (("--only", "phong"), "expected a technique and a model"),
+        (("--only", "gouraud:hall"), "gouraud does not go with hall: "),
+        (("--only", "path:hall,path:hall"), "stands there twice"),
+        (("--only", "path:hall", "--techniques", "path"), "in place of --techniques"),
+        (("--columns", "0"), "expected 1 or more"),
+        (("--captions", "colours"), "expected numbers, difference, names"),
+    ],
+)
+def test_a_choice_of_pairs_or_a_layout_that_cannot_be_is_one_sentence(
+    scenes, tmp_path, capsys, options, sentence
+):
+    out = ("-o", str(tmp_path / "sheet.png"))
+    assert run(["compare", str(scenes / "whitted.toml"), *options, *out]) == 2
+    assert sentence in capsys.readouterr().err
 
 
 EVERY_SCENE = sorted(path.stem for path in (Path(__file__).parents[2] / "scenes").glob("*.toml"))

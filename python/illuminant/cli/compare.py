@@ -26,6 +26,24 @@ def compare(
         str | None,
         typer.Option("--illuminations", metavar="NAME,...", help="Only these models.", show_default=False),
     ] = None,
+    only: Annotated[
+        str | None,
+        typer.Option(
+            "--only",
+            metavar="TECHNIQUE:MODEL,...",
+            help="Only these pairs, in this order.",
+            show_default=False,
+        ),
+    ] = None,
+    columns: Annotated[
+        int | None,
+        typer.Option(
+            "--columns", metavar="N", help="Images in a row (a row for each technique).", show_default=False
+        ),
+    ] = None,
+    captions: Annotated[
+        str, typer.Option("--captions", metavar="WHAT", help="Under the images: numbers, difference, names.")
+    ] = "numbers",
     sampling: Annotated[
         str | None, typer.Option("--sampling", metavar="NAME", help="How wavelengths are carried (fitted:8).")
     ] = None,
@@ -48,29 +66,44 @@ def compare(
     \b
     Example:
       illuminant compare room.toml --size 320x240 --samples 32 -o sheet.png
+      illuminant compare room.toml --only gouraud:phong,raytrace:whitted,path:general --columns 3 --captions names
     """
+    import shlex
+
     from illuminant.cli.report import emit_json, note
-    from illuminant.comparison import check_sheet, save_sheet
+    from illuminant.comparison import check_layout, check_sheet, save_sheet
     from illuminant.comparison import compare as run
 
     path = output or Path(f"{scene.stem}-compare.png")
     check_sheet(path)
+    check_layout(columns, captions)
     options: dict[str, Any] = {"sampling": sampling, "samples": samples, "size": size, "depth": depth}
     found = run(
         scene,
         techniques=techniques.split(",") if techniques else None,
         illuminations=illuminations.split(",") if illuminations else None,
+        only=only,
         on_start=None if json else lambda pair: note(f"{pair.technique} with {pair.illumination} …"),
         **options,
     )
     if json:
         emit_json([one.facts() for one in found])
     else:
-        typer.echo("technique  illumination   seconds  energy   ΔE00   FLIP")
+        widest = max(10, *(len(one.pair.technique) for one in found))
+        typer.echo(f"{'technique':<{widest}} illumination   seconds  energy   ΔE00   FLIP")
         for one in found:
             typer.echo(
-                f"{one.pair.technique:<10} {one.pair.illumination:<14} {one.seconds:7.2f} {100 * one.energy:6.1f}% "
-                f"{one.delta_e:6.2f}  {one.flip:.3f}"
+                f"{one.pair.technique:<{widest}} {one.pair.illumination:<14} {one.seconds:7.2f} "
+                f"{100 * one.energy:6.1f}% {one.delta_e:6.2f}  {one.flip:.3f}"
             )
-    save_sheet(path, found, exposure)
+    asked: dict[str, Any] = {
+        "techniques": techniques,
+        "illuminations": illuminations,
+        "only": only,
+        "columns": columns,
+    }
+    asked |= {"captions": captions if captions != "numbers" else None, **options, "exposure": exposure}
+    words = [word for name, value in asked.items() if value is not None for word in (f"--{name}", str(value))]
+    command = shlex.join(["illuminant", "compare", str(scene), *words])
+    save_sheet(path, found, exposure, columns=columns, captions=captions, command=command)
     note(f"{path}: contact sheet")
