@@ -75,9 +75,7 @@ def draw(quick: bool) -> Sheet:
     curves = [row / row[np.abs(x) < 0.99].max() for row in rows]
     figure, axes = pictures_over_curve(
         [
-            image.shown(exposure=0.9 / float(image.xyz[..., 1].max())).picture.codes[
-                :, size // 8 : -(size // 8)
-            ]
+            image.shown(exposure=0.9 / float(image.xyz[..., 1].max())).picture.codes[:, size // 4 :]
             for image in images
         ],
         [

@@ -31,15 +31,15 @@ ROWS = (
     (SCREEN, "Gouraud 1971", "colours interpolated", "4.30", "gouraud", "bouknight", ""),
     (SCREEN, "Newell et al. 1972", "pseudo transparency", "", "constant", "bouknight", "kind filter"),
     (SCREEN, "Phong 1975", "normals interpolated, highlights", "4.31", "phong", "phong", ""),
-    (SCREEN, "Duff 1979", "faster form", "4.31", "phong", "phong", "--shading duff"),
-    (SCREEN, "Bishop and Weimer 1986", "faster form", "4.31", "phong", "phong", "--shading bishop-weimer"),
+    (SCREEN, "Duff 1979", "faster form", "", "phong", "phong", "--shading duff"),
+    (SCREEN, "Bishop and Weimer 1986", "faster form", "", "phong", "phong", "--shading bishop-weimer"),
     (RAYS, "Catmull 1975", "texture mapping", "", "raytrace", "blinn", "image or pattern"),
     (RAYS, "Blinn and Newell 1976", "reflection mapping", "4.32", "phong", "whitted", "an environment"),
-    (RAYS, "Blinn 1977", "incoherent reflection", "4.32", "raytrace", "blinn", ""),
+    (RAYS, "Blinn 1977", "incoherent reflection", "", "raytrace", "blinn", ""),
     (RAYS, "Kay and Greenberg 1979", "refraction, attenuation", "", "raytrace", "whitted", "absorption"),
     (RAYS, "Whitted 1980", "recursive coherent rays", "4.33", "raytrace", "whitted", ""),
     (RAYS, "Hall and Greenberg 1983", "incoherent transmission", "4.34", "raytrace", "hall", ""),
-    (RAYS, "Cook et al. 1984", "distributed sampling", "4.34", "distributed", "hall", ""),
+    (RAYS, "Cook et al. 1984", "distributed sampling", "", "distributed", "hall", ""),
     (RAYS, "Amanatides 1984", "area sampling", "", "raytrace", "hall", "--cones"),
     (RAYS, "Kajiya 1985", "anisotropic illumination", "", "path", "general", "roughness [x, y]"),
     (RAYS, "Kajiya 1986", "equilibrium in distributed rays", "", "path", "general", ""),
@@ -60,13 +60,17 @@ LOOKS = {"sensible": "#9fd4c0", "warned": "#f4d58d", "refused": "#e6a89c"}
 
 def draw(quick: bool) -> Sheet:
     """Which technique goes with which model, by colour, and the classes of the book as rows of the data."""
+    from illuminant.atlas.chapter_4.compared_room import TECHNIQUES
     from illuminant.comparison import pairs
     from illuminant.plots.style import GREY, new_figure
 
     verdicts = {(pair.technique, pair.illumination): pair.verdict for pair in pairs()}
     techniques = list(dict.fromkeys(pair.technique for pair in pairs()))
     models = list(dict.fromkeys(pair.illumination for pair in pairs()))
-    figures = {(row[4], row[5]): row[3] for row in ROWS if row[3]}
+    figures = {
+        (options["technique"], options.get("illumination", "general")): number
+        for number, options in TECHNIQUES.items()
+    }
     figure, axes = new_figure((8.2, 4.6))
     for (technique, model), verdict in verdicts.items():
         x, y = models.index(model), techniques.index(technique)
