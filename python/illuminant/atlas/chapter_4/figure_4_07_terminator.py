@@ -62,7 +62,7 @@ def draw(quick: bool) -> Sheet:
         },
     )
     images.append(
-        render(scene, technique="path", **middle | {"samples": 64 if quick else 256, "filter": ("box", 0.5)})
+        render(scene, technique="path", **middle | {"samples": 64 if quick else 100, "filter": ("box", 0.5)})
     )
     pixel = 2.0 * math.tan(math.radians(field_of_view / 2.0)) / size
     slope = (np.arange(size) + 0.5 - size / 2) * pixel

@@ -104,7 +104,7 @@ def draw(quick: bool) -> Sheet:
 
     size = (240, 135) if quick else (720, 405)
     shown = render(
-        picture(size), technique="raytrace", illumination="hall", ambient=0.1, samples=4 if quick else 16
+        picture(size), technique="raytrace", illumination="hall", ambient=0.1, samples=4 if quick else 8
     )
     figure, axes = pictures_over_curve(
         [shown.shown(exposure=0.7 * shown.auto_exposure()).picture.codes],

@@ -41,7 +41,7 @@ def pictures_over_curve(
         >>> import numpy as np
         >>> figure, axes = pictures_over_curve([np.zeros((90, 300, 3), np.uint8)] * 2, ["left", "right"])
         >>> (figure.get_size_inches() * figure.dpi).round().astype(int).tolist()
-        [1245, 674]
+        [1245, 678]
     """
     import numpy as np
     from matplotlib.figure import Figure
