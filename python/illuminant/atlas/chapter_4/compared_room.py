@@ -91,11 +91,11 @@ SAMPLES = {
     "4.31": (16, 16),
     "4.32": (16, 16),
     "4.33": (4, 16),
-    "4.34": (16, 64),
+    "4.34": (16, 48),
     "4.35": (8, 16),
     "4.36": (8, 16),
     "4.37": (16, 32),
-    "reference": (48, 128),
+    "reference": (48, 96),
 }
 """Of a pixel, with quick settings and with full ones."""
 
@@ -258,6 +258,7 @@ def energy(number: str, quick: bool) -> float:
     return float(image(number, quick).xyz[..., 1].mean() / reference(quick).xyz[..., 1].mean())
 
 
+@cache
 def shadow_edge(number: str | None, quick: bool) -> tuple[Array, Array]:
     """Light across the edge of the shadow of the plastic ball on the floor, seen from straight above.
 
@@ -281,7 +282,7 @@ def shadow_edge(number: str | None, quick: bool) -> tuple[Array, Array]:
         "size": [pixels, pixels],
     }
     above = scene(quick).replace(camera=camera)
-    samples = 128 if quick else 512
+    samples = 128 if quick else 256
     if number is None:
         found = render(above, samples=samples)
     else:

@@ -41,7 +41,7 @@ def picture(size: tuple[int, int]) -> Scene:
         camera={
             "eye": [0.0, 1.6, 5.2],
             "target": [0.0, 0.75, 0.0],
-            "field_of_view": 44.0,
+            "field_of_view": 54.0,
             "size": list(size),
         },
         materials=MATERIALS,
@@ -102,14 +102,14 @@ def draw(quick: bool) -> Sheet:
     from illuminant.plots.style import GREY, TODAY, line_look
     from illuminant.rendering import render
 
-    size = (240, 135) if quick else (720, 405)
+    size = (240, 97) if quick else (940, 380)
     shown = render(
-        picture(size), technique="raytrace", illumination="hall", ambient=0.1, samples=4 if quick else 8
+        picture(size), technique="raytrace", illumination="hall", ambient=0.1, samples=4 if quick else 6
     )
     figure, axes = pictures_over_curve(
         [shown.shown(exposure=0.7 * shown.auto_exposure()).picture.codes],
         ["raytrace × hall: glass that absorbs, and copper"],
-        curve_height=320,
+        curve_height=300,
     )
     angles = np.array([5.0, 25.0, 45.0, 60.0, 70.0, 78.0, 84.0])
     found = np.array([highlight(float(angle), "fitted:8") for angle in angles])

@@ -84,7 +84,7 @@ def draw(quick: bool) -> Sheet:
     pictures, curves = [], {}
     for name, options in kinds.items():
         sampled = {"samples": (16 if quick else 64) if name == "distributed" else 4}
-        pictures.append(render(stage(view), **options | local | sampled))
+        pictures.append(render(stage(view), **options | local | {"ambient": 0.08} | sampled))
         line = render(stage(close), **options | local, samples=16 * samples if name == "distributed" else 16)
         curves[name] = line.xyz[..., 1].mean(axis=0)
     right = render(stage(close), depth=2, samples=16 * samples).xyz[..., 1].mean(axis=0)
