@@ -223,7 +223,7 @@ def test_an_output_lost_during_the_work_is_kept_elsewhere(
 ) -> None:
     import shutil
 
-    from illuminant.rendering import Job
+    from illuminant.job import Job
 
     folder, spare = scene.parent / "out", tmp_path_factory.mktemp("spare")
     folder.mkdir()
