@@ -17,7 +17,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from illuminant.errors import Error
+from illuminant.errors import Error, UsageError
 from illuminant.job import Job
 from illuminant.settings import SOLVED
 from illuminant.viewer.camera import limited
@@ -98,6 +98,9 @@ class Refiner:
         self._kept: tuple[State, Job] | None = None
         self.solution: Solution | None = None
         self._solved_for: State | None = None
+        self._solving: State | None = None
+        self._latest: Request | None = None
+        self.relit_seconds: float | None = None
         self._thread = threading.Thread(target=self._loop, name="illuminant refiner", daemon=True)
         self._thread.start()
 
@@ -128,6 +131,7 @@ class Refiner:
                 if self._closed:
                     return
                 request, self._wanted = self._wanted, None
+                self._latest = request
             assert request is not None
             try:
                 self._follow(request)
@@ -158,7 +162,7 @@ class Refiner:
         width, height = request.camera["size"]
         size = limited(width, height, max(1000, int(self._rate * 1e6 * PREVIEW_SECONDS)))
         kept = self._like(request)
-        known = state.technique not in SOLVED or self._solved(state)
+        known = state.technique not in SOLVED or self._solved(state) or self._relit(state)
         camera = dict(request.camera) | {"size": list(size)}
         options: dict[str, Any] = {"technique": state.technique, "illumination": state.illumination}
         if not known:
@@ -180,11 +184,9 @@ class Refiner:
 
     def _job(self, request: Request) -> Job | None:
         state = request.state
-        solution = None
         samples = MOST_SAMPLES
         if state.technique in SOLVED:
-            solution = self._solve(state)
-            if not self._current(request):
+            if not self._ready(state) or not self._current(request):
                 return None
             samples = GATHERED_SAMPLES if state.technique != "hybrid" else MOST_SAMPLES
         job = Job(
@@ -195,7 +197,7 @@ class Refiner:
             samples=samples,
             error=ERROR if state.technique in ("path", "distributed", "hybrid") else None,
             like=self._like(request),
-            solution=solution,
+            solution=self._core_solution(state),
         )
         self._kept = (state, job)
         return job
@@ -215,40 +217,63 @@ class Refiner:
     def _core_solution(self, state: State) -> Any:
         return self.solution._core if state.technique in SOLVED and self.solution is not None else None
 
-    def _solve(self, state: State) -> Any:
-        """The core's solution for a state, by the least work that does."""
-        from illuminant import radiosity
-        from illuminant.errors import UsageError
+    def _ready(self, state: State) -> bool:
+        """Whether there is a solution for a state, relit or repainted if that does; else it is solved for meanwhile."""
+        return self._solved(state) or self._relit(state) or self._solve(state)
 
-        if not self._solved(state):
-            start = clock.perf_counter()
-            before = self._solved_for
-            found = None
-            if (
-                self.solution is not None
-                and before is not None
-                and _same(replace(before, scene=state.scene), state, "elements")
-            ):
-                try:
-                    found = self.solution.of(state.scene)
-                except UsageError:
-                    found = None  # more has changed than can be relit
-            if found is None:
-                self._say(f"Solving for the light between about {state.elements} elements …", False)
-                options: dict[str, Any] = (
-                    {} if state.technique == "specular-radiosity" else {"elements": state.elements}
-                )
-                found = radiosity.solve(
-                    state.scene,
-                    technique=state.technique,
-                    illumination=state.illumination,
-                    sampling=state.sampling,
-                    **options,
-                )
-            self.solution, self._solved_for = found, state
-            self._say(f"Light between surfaces: {1000 * (clock.perf_counter() - start):.0f} ms", False)
-        assert self.solution is not None
-        return self.solution._core
+    def _relit(self, state: State) -> bool:
+        """Make the solution at hand one of a state with other lamps or paints; whether that was possible."""
+        before = self._solved_for
+        if (
+            self.solution is None
+            or before is None
+            or not _same(replace(before, scene=state.scene), state, "elements")
+        ):
+            return False
+        start = clock.perf_counter()
+        try:
+            self.solution = self.solution.of(state.scene)
+        except UsageError:
+            return False  # more has changed than can be relit
+        self._solved_for = state
+        self.relit_seconds = clock.perf_counter() - start
+        return True
+
+    def _solve(self, state: State) -> bool:
+        """Solve for a state on a thread of its own, so that the camera can move on; False, for it is not there yet."""
+        if self._solving is None:
+            self._solving = state
+            self._say(f"Solving for the light between about {state.elements} elements …", False)
+            threading.Thread(
+                target=self._solver, args=(state,), name="illuminant solver", daemon=True
+            ).start()
+        return False
+
+    def _solver(self, state: State) -> None:
+        from illuminant import radiosity
+
+        options: dict[str, Any] = (
+            {} if state.technique == "specular-radiosity" else {"elements": state.elements}
+        )
+        try:
+            found = radiosity.solve(
+                state.scene,
+                technique=state.technique,
+                illumination=state.illumination,
+                sampling=state.sampling,
+                **options,
+            )
+        except Exception as error:
+            self._say(str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}", True)
+            self._solving = None
+            return
+        with self._condition:
+            self.solution, self._solved_for, self._solving = found, state, None
+            if self._wanted is None and self._latest is not None and not self._closed:
+                # What was asked for last, which may be another state by now, goes on.
+                self._number += 1
+                self._wanted = replace(self._latest, number=self._number)
+                self._condition.notify()
 
     # --- frames --------------------------------------------------------------------------------------------------
 

@@ -24,7 +24,7 @@ class MeasurePanel:
                 (np.array([380.0, 780.0]), np.zeros(2)),
                 ({"label": "nm"}, {"label": "radiance", "stroke": "#56B4E9", "width": 2}),
                 scales={"x": {"time": False}},
-                axes=({"label": "wavelength, nm"}, {"label": "W·sr⁻¹·m⁻²·nm⁻¹", "size": 70}),
+                axes=({"label": "wavelength, nm"}, {"label": "mW·sr⁻¹·m⁻²·nm⁻¹", "size": 70}),
                 title="spectral radiance",
                 aspect=1.6,
                 visible=False,
@@ -45,5 +45,5 @@ class MeasurePanel:
         if found.delta_e is not None:
             rows.append(f"ΔE00 of what the display shows: {found.delta_e:.2f}")
         self._told.content = "\n\n".join(rows)
-        self._spectrum.data = (found.wavelengths_nm, found.radiance)
+        self._spectrum.data = (found.wavelengths_nm, 1000.0 * found.radiance)
         self._spectrum.visible = True

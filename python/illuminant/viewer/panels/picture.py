@@ -47,7 +47,10 @@ class PicturePanel:
 
     def _name_refused(self) -> None:
         _, refused = choices(self._technique.value)
-        lines = [f"- {name}: {reason}" for name, reason in refused.items()]
+        reasons: dict[str, list[str]] = {}
+        for name, reason in refused.items():
+            reasons.setdefault(reason, []).append(name)
+        lines = [f"- {', '.join(names)}: {reason}" for reason, names in reasons.items()]
         self._refused.content = "Not with this technique:\n\n" + "\n".join(lines) if lines else ""
 
     def _chosen(self, **chosen: Any) -> None:
