@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from illuminant import output
 from illuminant.errors import UsageError
+from illuminant.viewer.tables import relocate
 
 if TYPE_CHECKING:
     from illuminant.viewer.session import Session
@@ -60,7 +61,7 @@ def scene(session: Session) -> list[Path]:
     _update(document["camera"], dict(document["camera"]) | _plain(wanted))
     document["camera"].pop("crop", None)
     target = _free(session, "scene", ".toml")
-    _relocate(document, Path(path).parent, target.parent)
+    relocate(document, Path(path).parent, lambda file: Path(os.path.relpath(file, target.parent)))
     output.write_bytes(target, tomlkit.dumps(document).encode())
     return [target]
 
@@ -153,21 +154,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(one) for one in value]
     return round(float(value), 9) if isinstance(value, float) else value
-
-
-def _relocate(node: Any, before: Path, now: Path) -> None:
-    """Let names of files, which are relative to the scene's folder, be relative to another."""
-    pairs = node.items() if isinstance(node, Mapping) else enumerate(node) if isinstance(node, list) else ()
-    for key, value in list(pairs):
-        if isinstance(value, str):
-            if not Path(value).is_absolute() and _is_file(before / value):
-                node[key] = Path(os.path.relpath(before / value, now)).as_posix()
-        else:
-            _relocate(value, before, now)
-
-
-def _is_file(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except (OSError, ValueError):
-        return False

@@ -36,6 +36,7 @@ class Viewer:
 
     Attributes:
         url: of the page, with its token.
+        port: that it listens on.
 
     Raises:
         UsageError: a choice is not known.
@@ -64,9 +65,10 @@ class Viewer:
         self._token = new_token()
         self._guard = Guard(self._token, host, port)
         self._server = self._listen(host, port)
-        self._guard.port = self._server.get_port()
+        self.port: int = self._server.get_port()
+        self._guard.port = self.port
         shown = "localhost" if host in LOOPBACK else host
-        self.url = f"http://{shown}:{self._guard.port}/?token={self._token}"
+        self.url = f"http://{shown}:{self.port}/?token={self._token}"
         self._server.gui.configure_theme(
             control_layout="floating",
             control_width="large",

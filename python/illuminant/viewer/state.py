@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from illuminant.display.look import Look
 from illuminant.errors import SceneError
+from illuminant.viewer.tables import relocate
 
 if TYPE_CHECKING:
     from illuminant.scene import Scene
@@ -115,6 +116,9 @@ def _tables(path: str | None) -> dict[str, Any]:
     if not path or Path(path).suffix != ".toml":
         return {}
     try:
-        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        tables = tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise SceneError(f"{path}: {error}") from None
+    # `Scene.replace` knows no folder that names of files are relative to.
+    relocate(tables, Path(path).parent, Path.absolute)
+    return tables

@@ -9,13 +9,14 @@ Example:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 from illuminant.errors import UsageError
 from illuminant.quantities import QUANTITIES
 
-__all__ = ["choices_of", "lamps", "relit", "repainted"]
+__all__ = ["choices_of", "lamps", "relit", "relocate", "repainted"]
 
 NO_FINISH = "as its roughness"
 _RELIEF = ("roughness", "roughness_across", "sigma_nm", "distribution")
@@ -108,3 +109,28 @@ def repainted(table: Mapping[str, Any], key: str, value: Any) -> dict[str, Any]:
             return changed
     changed[key] = value
     return changed
+
+
+def relocate(node: Any, folder: Path, named: Callable[[Path], Path]) -> None:
+    """Name the files in tables anew, in place.
+
+    Args:
+        node: tables, or part of them.
+        folder: to which names are relative.
+        named: the new name of a file.
+    """
+    pairs: Any = (
+        node.items() if isinstance(node, Mapping) else enumerate(node) if isinstance(node, list) else ()
+    )
+    for key, value in list(pairs):
+        if not isinstance(value, str):
+            relocate(value, folder, named)
+        elif _is_file(folder / value):
+            node[key] = named(folder / value).as_posix()
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
