@@ -25,7 +25,7 @@ CARGO_TEST = ILLUMINANT_EMBREE="$$(ls "$(CURDIR)"/.venv/lib/python3*/site-packag
 CLIPPY = PYO3_BUILD_EXTENSION_MODULE=1 PYO3_CONFIG_FILE="$$(ls "$(CURDIR)"/target/maturin/pyo3-config-*.txt | tail -n 1)" \
   cargo clippy --release --workspace --all-targets --quiet -- -D warnings
 
-.PHONY: help setup demo test test-slow lint format bench wheel requirements clean FORCE
+.PHONY: help setup demo test test-slow lint format bench site wheel requirements clean FORCE
 
 help: ## List the verbs
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 22
@@ -64,6 +64,14 @@ bench: .venv/.core ## Measure beside peers and beside raw Embree; prints tables 
 	@peers=$$(benches/peers.sh); eval "$$peers"; \
 	for script in compare_mitsuba embree_limit lanes memory fitted color dither scanline glossy many_lamps form_factors radiance; do \
 	  echo "illuminant: benches/$$script.py"; $(BIN)/python benches/$$script.py; done
+
+site: .venv/.core build/atlas/index.md ## Build the documentation site in build/site/html (docs, atlas, references)
+	@$(BIN)/python tools/site/build.py build/site --atlas build/atlas
+
+build/atlas/index.md: $(shell find python/illuminant/atlas -name '*.py') .venv/.core
+	@echo "illuminant: drawing the atlas (up to a quarter of an hour)"
+	@rm -rf build/atlas
+	@$(BIN)/illuminant atlas --all -o build/atlas > /dev/null
 
 wheel: .venv/.core ## Build the abi3 wheel in dist/
 	@rm -rf dist
@@ -121,6 +129,6 @@ requirements: .venv/.uv ## Pin the Python packages again (UPGRADE=1 takes newer 
 	@touch $@
 
 clean: ## Remove everything that was built, and the environments
-	@rm -rf .venv .venv-bench dist target demo.png .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	@rm -rf .venv .venv-bench build dist target demo.png .mypy_cache .pytest_cache .ruff_cache .hypothesis
 	@rm -f python/illuminant/*.so
 	@find python tests tools benches -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -11,6 +11,7 @@ A fenced block says in its first line what is to be done with it, after the lang
 All others are only read.
 """
 
+import itertools
 import re
 import shlex
 from collections.abc import Iterator
@@ -25,6 +26,22 @@ from illuminant.cli import run
 TINY_OPTIONS = ("--size", "32x20", "--samples", "2")
 TINY: dict[str, Any] = {"size": (32, 20), "samples": 2}
 LARGEST_PICTURE, LARGEST_DEMO = 300_000, 700_000
+
+THE_WAY = (
+    "install.md",
+    "way/lamps.md",
+    "way/materials.md",
+    "way/surfaces.md",
+    "way/models.md",
+    "way/transport.md",
+    "way/radiosity.md",
+    "way/sampling.md",
+    "way/eye.md",
+    "way/display.md",
+    "way/choosing.md",
+    "validation.md",
+)
+"""The pages that lead a newcomer through the house: how it is built, and its rooms as light passes through them."""
 
 
 class Block(NamedTuple):
@@ -112,9 +129,26 @@ def test_the_example_in_python_has_five_lines(repository):
     assert len(program.text.splitlines()) == 5
 
 
+@pytest.mark.parametrize("page", THE_WAY)
+def test_the_way_of_light_runs(repository, newcomer, capsys, page):
+    file = repository / "docs" / page
+    assert follow(file, capsys) >= 1
+    only_read = [b for b in blocks(file) if b.language in ("sh", "python") and "runnable" not in b.words]
+    assert [block.line for block in only_read if not re.match(r"git |make ", block.text)] == []
+
+
+def test_the_rooms_of_the_way_lead_to_each_other(repository):
+    way = repository / "docs" / "way"
+    order = [Path(page).name for page in THE_WAY if page.startswith("way/")]
+    assert sorted(order) == sorted(page.name for page in way.glob("*.md"))
+    for before, after in itertools.pairwise(order):
+        assert f"({after})" in (way / before).read_text(encoding="utf-8").splitlines()[-1]
+
+
 def test_the_commands_to_make_are_verbs_of_the_makefile(repository):
     verbs = set(re.findall(r"^([a-z-]+):", (repository / "Makefile").read_text(), re.MULTILINE))
-    for page in (repository / "README.md", repository / "docs" / "first-material.md"):
+    for name in ("README.md", "docs/first-material.md", "docs/install.md"):
+        page = repository / name
         asked = {
             verb for block in blocks(page) for verb in re.findall(r"^make (\S+)", block.text, re.MULTILINE)
         }
@@ -127,7 +161,9 @@ def test_the_commands_to_make_are_verbs_of_the_makefile(repository):
 
 def pages(repository: Path) -> list[Path]:
     """Every page that people read."""
-    return sorted([*repository.glob("*.md"), *repository.glob("docs/*.md"), *repository.glob("benches/*.md")])
+    return sorted(
+        [*repository.glob("*.md"), *repository.glob("docs/**/*.md"), *repository.glob("benches/*.md")]
+    )
 
 
 def anchors(page: Path) -> set[str]:
@@ -137,9 +173,12 @@ def anchors(page: Path) -> set[str]:
 
 
 def links(page: Path) -> list[str]:
-    """The relative links of a page; code is no link."""
+    """The relative links of a page; code is no link, and what only the site shows is looked at there (tests/site)."""
     content = re.sub(
-        r"^```.*?^```$|`[^`\n]*`", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL
+        r"^```.*?^```$|`[^`\n]*`|<!-- site\n.*?\n-->",
+        "",
+        page.read_text(encoding="utf-8"),
+        flags=re.MULTILINE | re.DOTALL,
     )
     return [link for link in re.findall(r"\]\(([^)\s]+)\)", content) if not re.match(r"[a-z]+:", link)]
 
@@ -156,8 +195,9 @@ def test_every_relative_link_leads_somewhere(repository):
 
 
 def test_every_page_is_in_the_index(repository):
-    index = repository / "docs" / "index.md"
-    assert {page.name for page in (repository / "docs").glob("*.md")} - {"index.md"} <= set(links(index))
+    docs = repository / "docs"
+    known = {page.relative_to(docs).as_posix() for page in docs.rglob("*.md")} - {"index.md"}
+    assert {page for page in known if not page.startswith("site/")} <= set(links(docs / "index.md"))
 
 
 def test_the_index_names_every_scene(repository):

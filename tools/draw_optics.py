@@ -10,47 +10,26 @@ matplotlib.use("Agg")
 import numpy as np
 from matplotlib import pyplot
 
-from illuminant import auditing, optics, verify
+from illuminant import auditing
+from illuminant.atlas.chapter_2.reflected_energy import HEIGHTS_NM, coherent, equilibrium, incoherent
 
 IMAGES = Path(__file__).parent.parent / "docs" / "images"
-WAVELENGTH_NM = 580.0
-"""The wavelength of the book's figures 2.16 to 2.22."""
 
 ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 75.0, 80.0, 84.0, 87.0, 89.0)
 
 
-def theory(theta_deg: float, m: float, sigma_nm: float) -> float:
-    """Coherent and incoherent reflection with F = 1 as the book adds them (figure 2.21)."""
-    cos_in = np.cos(np.radians(theta_deg))
-    coherent = optics.coherent_fraction(optics.apparent_roughness(sigma_nm, WAVELENGTH_NM, cos_in))
-    coherent *= optics.masking_sancer(cos_in, cos_in, m)
-
-    def reflected(directions: np.ndarray) -> np.ndarray:
-        light = np.array([np.sin(np.radians(theta_deg)), 0.0, cos_in])
-        half = directions + light
-        half /= np.linalg.norm(half, axis=1, keepdims=True)
-        g = optics.apparent_roughness(sigma_nm, WAVELENGTH_NM, cos_in, np.clip(directions[:, 2], 0, 1))
-        d = optics.wave_distribution(np.clip(half[:, 2], 0, 1), m, g)
-        masking = optics.masking_sancer(cos_in, np.clip(directions[:, 2], 0, 1), m)
-        return d * masking / cos_in
-
-    return float(coherent + verify.integrate(reflected, tolerance=1e-4))
-
-
-def ours(m: float, sigma_nm: float) -> list[float]:
-    """All that `general` reflects with F = 1."""
-    perfect = {"kind": "conductor", "n": 1.0, "k": 1e4, "roughness": m, "sigma_nm": sigma_nm}
-    found = auditing.audit(perfect, angles_deg=ANGLES, wavelengths_nm=[WAVELENGTH_NM], draws=50_000)[0]
-    return [float(value) for value in (found.coherent_reflection + found.scattered_reflection)[:, 0]]
-
-
 def balance() -> None:
-    """Book figure 2.21 beside the balance of `general`."""
+    """Sections of book figure 2.21, as the atlas computes them, beside the balance of `general`."""
     figure, axes = pyplot.subplots(1, 2, figsize=(10, 4), sharey=True, layout="constrained")
     for ax, m in zip(axes, (0.1, 1.0), strict=True):
-        for sigma, colour in ((30.0, "tab:blue"), (80.0, "tab:orange"), (150.0, "tab:green")):
-            ax.plot(ANGLES, [theory(angle, m, sigma) for angle in ANGLES], "--", color=colour)
-            ax.plot(ANGLES, ours(m, sigma), color=colour, label=f"σ = {sigma:g} nm")
+        scattered = np.stack([incoherent(angle, m, HEIGHTS_NM) for angle in ANGLES], axis=1)
+        for sigma, part, colour in zip(
+            HEIGHTS_NM, scattered, ("tab:blue", "tab:orange", "tab:green"), strict=True
+        ):
+            ax.plot(ANGLES, coherent(ANGLES, sigma, m) + part, "--", color=colour)
+            ax.plot(
+                ANGLES, equilibrium(m, sigma, ANGLES, 50_000).total, color=colour, label=f"σ = {sigma:g} nm"
+            )
         ax.axhline(1.0, color="black", linewidth=0.5)
         ax.set(title=f"m = {m:g}", xlabel="angle of incidence, degrees", ylim=(0, 1.25))
     axes[0].set_ylabel("reflected with F = 1 at 580 nm")

@@ -505,6 +505,8 @@ class Render:
 
     def __init__(self, scene: Scene, settings: str, solution: Solution | None = None) -> None:
         """A render of a scene with settings (JSON), and an empty film; with light between surfaces, if it is known."""
+    def again(self, scene: Scene, settings: str, solution: Solution | None = None) -> Render:
+        """A render of a scene that differs in its camera, or by other settings, in the same wavelengths."""
     def solution(self) -> Solution | None:
         """The light between surfaces, if the technique has solved for it."""
     def run(self, first: int, last: int, progress: Callable[[float], object] | None = None) -> bool:

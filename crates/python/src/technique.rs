@@ -5,7 +5,6 @@ use crate::scene::PyScene;
 use illuminant_illumination::Illumination;
 use illuminant_sampling::Role;
 use illuminant_technique::pairs::{Pair, pair};
-
 use illuminant_technique::{Progress, Render, RenderError, Settings, Technique, Vertex, reflectances};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{PyArray1, PyArray2, PyArray3, ToPyArray};
@@ -54,6 +53,22 @@ impl PyRender {
         let scene = Arc::clone(&scene.0);
         let solution = solution.map(|solution| Arc::clone(&solution.0));
         let render = py.detach(|| Render::of(scene, settings, solution));
+        Ok(Self(render.map_err(|e: RenderError| PyValueError::new_err(e.to_string()))?))
+    }
+
+    /// A render of a scene that differs in its camera, or by other settings, in the same wavelengths.
+    #[pyo3(signature = (scene, settings, solution=None))]
+    fn again(
+        &self,
+        py: Python<'_>,
+        scene: &PyScene,
+        settings: &str,
+        solution: Option<&PySolution>,
+    ) -> PyResult<Self> {
+        let settings = self::settings(settings)?;
+        let scene = Arc::clone(&scene.0);
+        let solution = solution.map(|solution| Arc::clone(&solution.0));
+        let render = py.detach(|| self.0.again(scene, settings, solution));
         Ok(Self(render.map_err(|e: RenderError| PyValueError::new_err(e.to_string()))?))
     }
 

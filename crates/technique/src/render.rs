@@ -128,6 +128,33 @@ impl Render {
         settings: Settings,
         solution: Option<Arc<RadiositySolution>>,
     ) -> Result<Self, RenderError> {
+        Self::with(scene, settings, solution, None)
+    }
+
+    /// A render of a scene that differs from this one's in its camera, or by other settings, in the same wavelengths: to fit
+    /// them again would take longer than a first image of few pixels. They are fitted again where the sampling or the
+    /// number of lamps differs.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn again(
+        &self,
+        scene: Arc<Scene>,
+        settings: Settings,
+        solution: Option<Arc<RadiositySolution>>,
+    ) -> Result<Self, RenderError> {
+        let same = settings.sampling == self.job.settings.sampling
+            && scene.lamps.len() == self.job.scene.lamps.len()
+            && scene.range == self.job.scene.range;
+        Self::with(scene, settings, solution, same.then(|| Arc::clone(&self.basis)))
+    }
+
+    fn with(
+        scene: Arc<Scene>,
+        settings: Settings,
+        solution: Option<Arc<RadiositySolution>>,
+        wavelengths: Option<Arc<dyn Basis>>,
+    ) -> Result<Self, RenderError> {
         let technique: Technique = settings.technique.parse().map_err(RenderError::Setting)?;
         let illumination: Illumination = settings.illumination.parse().map_err(RenderError::Setting)?;
         pairs::check(technique, illumination).map_err(RenderError::Setting)?;
@@ -184,10 +211,11 @@ impl Render {
             .num_threads(settings.threads)
             .build()
             .map_err(|e| RenderError::Setting(format!("no threads can be started: {e}")))?;
-        let basis: Arc<dyn Basis> = match &solution {
+        let basis: Arc<dyn Basis> = match (&solution, wavelengths) {
             // What was solved for in some samples is seen in those.
-            Some(solution) => Arc::clone(&solution.basis),
-            None => pool.install(|| basis(&scene, &settings))?,
+            (Some(solution), _) => Arc::clone(&solution.basis),
+            (None, Some(given)) => given,
+            (None, None) => pool.install(|| basis(&scene, &settings))?,
         };
         let by_lamp = settings.layers.contains(&Layer::Lamps);
         let (groups, group_of) = group_lamps(&*basis, scene.lamps.len(), by_lamp);

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from illuminant.display.video.composite import Signal
 
-__all__ = ["vectorscope"]
+__all__ = ["draw", "vectorscope"]
 
 RADIUS_IRE = 62.0
 """Of the screen: bars of full level stay on it."""
@@ -45,36 +45,41 @@ def vectorscope(
         >>> vectorscope(encode(np.ones((2, 754, 3))), 0).axes[0].get_title(loc="left")
         'Vectorscope, line 0; targets of 75 % bars'
     """
+    with styled():
+        figure, axes = new_figure(size)
+        draw(axes, signal, line, bars=bars)
+    return figure
+
+
+def draw(axes: Axes, signal: Signal, line: int | None = None, *, bars: float = 0.75) -> None:
+    """The same in axes of a figure; arguments and errors as `vectorscope`."""
     import numpy as np
 
     points = scopes.vectors(signal, line)
     burst = scopes.burst_vector(signal, line or 0)
-    with styled():
-        figure, axes = new_figure(size)
-        axes.set_aspect("equal")
-        axes.set_axis_off()
-        _graticule(axes, bars, scopes.targets(bars, levels=signal.levels))
-        axes.plot([0.0, burst[0]], [0.0, burst[1]], color=_TRACE, linewidth=1.2)
-        if line is not None:
-            axes.plot(points[:, 0], points[:, 1], color=_TRACE, linewidth=0.5, zorder=2)
-            axes.plot(points[:, 0], points[:, 1], ".", color=_TRACE, markersize=2.0, zorder=2)
-        else:
-            _beam(axes, points)
-        axes.set_xlim(-1.18 * RADIUS_IRE, 1.18 * RADIUS_IRE)
-        axes.set_ylim(-1.18 * RADIUS_IRE, 1.18 * RADIUS_IRE)
-        where = "all lines" if line is None else f"line {line}"
-        axes.set_title(f"Vectorscope, {where}; targets of {100 * bars:g} % bars")
-        beyond = float((np.hypot(points[:, 0], points[:, 1]) > RADIUS_IRE).mean())
-        if beyond > 0.0:
-            axes.annotate(
-                f"{100 * beyond:.1f} % of the samples lie outside the circle",
-                (0.5, 0.0),
-                xycoords="axes fraction",
-                ha="center",
-                fontsize=7.5,
-                color=INK,
-            )
-    return figure
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    _graticule(axes, bars, scopes.targets(bars, levels=signal.levels))
+    axes.plot([0.0, burst[0]], [0.0, burst[1]], color=_TRACE, linewidth=1.2)
+    if line is not None:
+        axes.plot(points[:, 0], points[:, 1], color=_TRACE, linewidth=0.5, zorder=2)
+        axes.plot(points[:, 0], points[:, 1], ".", color=_TRACE, markersize=2.0, zorder=2)
+    else:
+        _beam(axes, points)
+    axes.set_xlim(-1.18 * RADIUS_IRE, 1.18 * RADIUS_IRE)
+    axes.set_ylim(-1.18 * RADIUS_IRE, 1.18 * RADIUS_IRE)
+    where = "all lines" if line is None else f"line {line}"
+    axes.set_title(f"Vectorscope, {where}; targets of {100 * bars:g} % bars")
+    beyond = float((np.hypot(points[:, 0], points[:, 1]) > RADIUS_IRE).mean())
+    if beyond > 0.0:
+        axes.annotate(
+            f"{100 * beyond:.1f} % of the samples lie outside the circle",
+            (0.5, 0.0),
+            xycoords="axes fraction",
+            ha="center",
+            fontsize=7.5,
+            color=INK,
+        )
 
 
 def _beam(axes: Axes, points: NDArray[np.float64]) -> None:

@@ -261,6 +261,11 @@ def _name_wavelengths(axes: Axes, plane: Diagram, locus: Points) -> list[labels.
     size = 7.5
     centre = np.array(_on_paper(axes, locus.mean(axis=0)))[0]
     taken: list[labels.Box] = []
+    corners = (
+        np.array(_on_paper(axes, plane.project(plane.observer.at(plane.primaries_nm))))
+        if plane.primaries_nm
+        else ()
+    )
     # The ends first: they are the last to go without a name.
     for wavelength in sorted(WAVELENGTHS_NM, key=lambda w: (w % 20 != 0, w)):
         three = plane.project(plane.observer.at([wavelength - 1.0, wavelength, wavelength + 1.0]))
@@ -276,6 +281,12 @@ def _name_wavelengths(axes: Axes, plane: Diagram, locus: Points) -> list[labels.
         tick.set_in_layout(False)
         text = f"{wavelength} nm" if wavelength == max(WAVELENGTHS_NM) else f"{wavelength}"
         width, height = labels.extent(text, size)
+        # Where the locus hardly moves, a name beside a primary would be taken for the primary's.
+        if any(
+            abs(wavelength - primary) > 12 and np.hypot(*(at - corner)) < 25
+            for primary, corner in zip(plane.primaries_nm, corners, strict=True)
+        ):
+            continue
         # The nearest edge of the name lies just beyond the tick.
         offset = normal * (6.5 + abs(normal[0]) * width / 2 + abs(normal[1]) * height / 2 - 1.0)
         x, y = at + offset
@@ -308,6 +319,9 @@ def _name_points(
         for a, b in ((red, green), (green, blue), (blue, red)):
             edge = a + (b - a) * np.linspace(0, 1, 100)[:, np.newaxis]
             obstacles += labels.around(_on_paper(axes, edge), 1.0)
+        _, locus = plane.spectral_locus()
+        purples = locus[-1] + (locus[0] - locus[-1]) * np.linspace(0, 1, 100)[:, np.newaxis]
+        obstacles += labels.around(_on_paper(axes, np.concatenate([locus, purples])), 1.0)
     where = [_on_paper(axes, points[name])[0] for name in names]
     centres = labels.place(where, texts, obstacles, size)
     for name, text, at, (x, y) in zip(names, texts, where, centres, strict=True):

@@ -8,11 +8,12 @@ from illuminant.display.video import scopes
 from illuminant.plots.style import GREY, INK, new_figure, styled
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from illuminant.display.video.composite import Signal
 
-__all__ = ["waveform"]
+__all__ = ["draw", "waveform"]
 
 IRE_RANGE = (-50.0, 140.0)
 """Of the screen."""
@@ -40,48 +41,53 @@ def waveform(
         >>> waveform(encode(np.ones((2, 754, 3))), 0).axes[0].get_ylabel()
         'level (IRE)'
     """
+    with styled():
+        figure, axes = new_figure(size)
+        draw(axes, signal, line, show=show)
+    return figure
+
+
+def draw(axes: Axes, signal: Signal, line: int | None = None, *, show: str = "flat") -> None:
+    """The same in axes of a figure; arguments and errors as `waveform`."""
     import numpy as np
 
     ends = (0.0, float(signal.time_us[-1]))
-    with styled():
-        figure, axes = new_figure(size)
-        if line is not None:
-            time, ire = scopes.waveform(signal, line, show=show, finer=8)
-            axes.plot(time, ire[0], color=_TRACE, linewidth=0.6)
-        else:
-            time, ire = scopes.beam(signal, show=show)
-            screen = scopes.density(time, ire, (ends, IRE_RANGE), (910, 570))
-            # A beam that passes a place ten times lights it little more than twice as much.
-            lit = np.log1p(screen / max(1.0, len(ire) / 60))
-            axes.imshow(
-                lit,
-                extent=(*ends, *IRE_RANGE),
-                cmap="Greens",
-                vmin=0.0,
-                vmax=max(float(np.quantile(lit, 0.995)), 1e-9),
-                aspect="auto",
-                interpolation="nearest",
-            )
-        for level, name in _graticule(signal):
-            axes.axhline(level, color=GREY, linewidth=0.5, linestyle=(0, (4, 3)), zorder=0.5)
-            axes.annotate(
-                name,
-                (1.0, level),
-                (4, 0),
-                xycoords=("axes fraction", "data"),
-                textcoords="offset points",
-                va="center",
-                fontsize=7.5,
-                color=INK,
-            )
-        axes.set_xlim(*ends)
-        axes.set_ylim(*IRE_RANGE)
-        axes.set_yticks(range(-40, 141, 20))
-        axes.set_xlabel("time from the leading edge of sync (µs)")
-        axes.set_ylabel("level (IRE)")
-        what = "Luminance" if show == "luminance" else "Composite signal"
-        axes.set_title(f"{what} of {'all lines' if line is None else f'line {line}'}")
-    return figure
+    if line is not None:
+        time, ire = scopes.waveform(signal, line, show=show, finer=8)
+        axes.plot(time, ire[0], color=_TRACE, linewidth=0.6)
+    else:
+        time, ire = scopes.beam(signal, show=show)
+        screen = scopes.density(time, ire, (ends, IRE_RANGE), (910, 570))
+        # A beam that passes a place ten times lights it little more than twice as much.
+        lit = np.log1p(screen / max(1.0, len(ire) / 60))
+        axes.imshow(
+            lit,
+            extent=(*ends, *IRE_RANGE),
+            cmap="Greens",
+            vmin=0.0,
+            vmax=max(float(np.quantile(lit, 0.995)), 1e-9),
+            aspect="auto",
+            interpolation="nearest",
+        )
+    for level, name in _graticule(signal):
+        axes.axhline(level, color=GREY, linewidth=0.5, linestyle=(0, (4, 3)), zorder=0.5)
+        axes.annotate(
+            name,
+            (1.0, level),
+            (4, 0),
+            xycoords=("axes fraction", "data"),
+            textcoords="offset points",
+            va="center",
+            fontsize=7.5,
+            color=INK,
+        )
+    axes.set_xlim(*ends)
+    axes.set_ylim(*IRE_RANGE)
+    axes.set_yticks(range(-40, 141, 20))
+    axes.set_xlabel("time from the leading edge of sync (µs)")
+    axes.set_ylabel("level (IRE)")
+    what = "Luminance" if show == "luminance" else "Composite signal"
+    axes.set_title(f"{what} of {'all lines' if line is None else f'line {line}'}")
 
 
 def _graticule(signal: Signal) -> list[tuple[float, str]]:

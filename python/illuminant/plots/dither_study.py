@@ -11,12 +11,12 @@ from illuminant.plots.style import DPI, GREY, INK, line_look, new_figure, save, 
 
 if TYPE_CHECKING:
     import numpy as np
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure, SubFigure
     from numpy.typing import NDArray
 
     Bytes = NDArray[np.uint8]
 
-__all__ = ["labelled", "patterns", "save_patterns", "save_spectra", "spectra"]
+__all__ = ["draw_patterns", "labelled", "patterns", "save_patterns", "save_spectra", "spectra"]
 
 _MOST_PATTERNS = 64
 
@@ -84,7 +84,6 @@ def patterns(cells: Sequence[str] | None = None) -> Figure:
         5
     """
     from matplotlib.figure import Figure
-    from matplotlib.patches import Rectangle
 
     from illuminant.display import patterning
 
@@ -96,38 +95,44 @@ def patterns(cells: Sequence[str] | None = None) -> Figure:
             )
     most = max(patterning.levels(cell) for cell in chosen)
     with styled():
-        figure = Figure(
-            figsize=(max(0.72 * most, 3.0), 1.15 * len(chosen)),
-            dpi=DPI,
-            layout="constrained",
-            facecolor="white",
-        )
-        grid: Any = figure.subplots(len(chosen), most, squeeze=False)
-        for row, cell in zip(grid, chosen, strict=True):
-            width, height = patterning.sides(cell)
-            every = patterning.patterns(cell)
-            for level, axes in enumerate(row):
-                if level >= len(every):
-                    axes.remove()
-                    continue
-                axes.imshow(1 - every[level], cmap="gray_r", vmin=0, vmax=1, extent=(0, width, height, 0))
-                for x in range(width):
-                    for y in range(height):
-                        axes.add_patch(Rectangle((x, y), 1, 1, fill=False, edgecolor=GREY, linewidth=0.6))
-                axes.set_xlim(0, width)
-                axes.set_ylim(height, 0)
-                axes.set_axis_off()
-                axes.set_title(f"{level}/{len(every) - 1}", fontsize=7.5, loc="center", pad=3.0)
-            row[0].text(
-                -0.35,
-                0.5,
-                cell.replace("x", " × "),
-                transform=row[0].transAxes,
-                ha="right",
-                va="center",
-                fontsize=9,
-            )
+        size = (max(0.72 * most, 3.0), 1.15 * len(chosen))
+        figure = Figure(figsize=size, dpi=DPI, layout="constrained", facecolor="white")
+        draw_patterns(figure, chosen)
     return figure
+
+
+def draw_patterns(figure: Figure | SubFigure, cells: Sequence[str]) -> None:
+    """The same in a figure, or a part of one: a row for each cell."""
+    from matplotlib.patches import Rectangle
+
+    from illuminant.display import patterning
+
+    most = max(patterning.levels(cell) for cell in cells)
+    grid: Any = figure.subplots(len(cells), most, squeeze=False)
+    for row, cell in zip(grid, cells, strict=True):
+        width, height = patterning.sides(cell)
+        every = patterning.patterns(cell)
+        for level, axes in enumerate(row):
+            if level >= len(every):
+                axes.remove()
+                continue
+            axes.imshow(1 - every[level], cmap="gray_r", vmin=0, vmax=1, extent=(0, width, height, 0))
+            for x in range(width):
+                for y in range(height):
+                    axes.add_patch(Rectangle((x, y), 1, 1, fill=False, edgecolor=GREY, linewidth=0.6))
+            axes.set_xlim(0, width)
+            axes.set_ylim(height, 0)
+            axes.set_axis_off()
+            axes.set_title(f"{level}/{len(every) - 1}", fontsize=7.5, loc="center", pad=3.0)
+        row[0].text(
+            -0.35,
+            0.5,
+            cell.replace("x", " × "),
+            transform=row[0].transAxes,
+            ha="right",
+            va="center",
+            fontsize=9,
+        )
 
 
 def save_patterns(cells: Sequence[str] | None, path: str | os.PathLike[str]) -> None:

@@ -99,8 +99,17 @@ def projection(
         for wavelength in (480, 500, 520, 540, 560, 580, 600):
             at = _seen(flat[wavelength - 400])
             axes.plot(*at, marker="o", markersize=3, color=INK, zorder=5)
+            # Outside of the curve, which turns to the left below 510 nm.
+            left = wavelength < 510
             axes.annotate(
-                f"{wavelength}", tuple(at), (5, 5), textcoords="offset points", fontsize=7.5, zorder=6
+                f"{wavelength}",
+                tuple(at),
+                (-6, 2) if left else (7, 1),
+                textcoords="offset points",
+                ha="right" if left else "left",
+                va="center",
+                fontsize=7.5,
+                zorder=6,
             )
     return figure
 

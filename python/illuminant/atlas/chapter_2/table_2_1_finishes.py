@@ -33,12 +33,12 @@ def draw(quick: bool) -> Sheet:
     figure, axes = new_figure((7.2, 4.4))
     rows = np.arange(len(names))
     for i, (values, label) in enumerate(((along, "with the grain"), (across, "across the grain"))):
-        axes.barh(rows + 0.2 - 0.4 * i, values, height=0.38, color=line_look(i)["color"], label=label)
+        axes.barh(rows - 0.2 + 0.4 * i, values, height=0.38, color=line_look(i)["color"], label=label)
     axes.axvline(WAVELENGTH_NM, color="black", linewidth=0.8)
-    axes.text(WAVELENGTH_NM, len(names) - 0.4, " λ = 580 nm", va="bottom", fontsize=8)
+    axes.text(WAVELENGTH_NM, -0.5, " λ = 580 nm", va="bottom", fontsize=8)
     axes.set_yticks(rows, [f"{name}, {metal}" for name, metal in zip(names, metals, strict=True)])
-    axes.set(xlabel="root mean square height σ, nm")
-    axes.legend(loc="lower right")
+    axes.set(xlabel="root mean square height σ, nm", ylim=(len(names) - 0.5, -0.5))
+    axes.legend(loc="upper right")
     heights = np.array([along, across]) / MICROINCH_NM
     return Sheet(
         picture=figure,
@@ -77,5 +77,5 @@ PLATE = Plate(
     today='The finishes are materials by name (`finish = "side mill"`), with slopes of our own; the two directions of '
     "the grain make an anisotropic surface.",
     draw=draw,
-    commands=("illuminant audit --help",),
+    commands=("illuminant audit 'aluminium, side mill'",),
 )

@@ -1,0 +1,89 @@
+"""What figures IV.1 and IV.2 share: a hemi-cube whose cells are shaded by their delta form factors, and one of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from illuminant.plots.sketch import Sketch, View, new_sketches
+
+if TYPE_CHECKING:
+    import numpy as np
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+__all__ = ["draw_cell", "shades"]
+
+RESOLUTION = 16
+
+
+def shades(delta: NDArray[np.float64]) -> list[tuple[float, float, float]]:
+    """From white for none to a blue for the largest."""
+    import numpy as np
+
+    part = np.clip(delta / delta.max(), 0.0, 1.0)
+    blue = np.array([0.0, 0.45, 0.70])
+    return [tuple(1.0 - 0.85 * p * (1.0 - blue)) for p in part]
+
+
+def draw_cell(top: bool, chosen: tuple[float, float]) -> tuple[Figure, NDArray[np.float64]]:
+    """The half cube with the cell of a face nearest to a place, its distance, its angles; the middle of that cell."""
+    import numpy as np
+
+    from illuminant.atlas.chapter_4.hemicube import hemicube
+    from illuminant.plots.style import GREY, line_look
+
+    red = line_look(1)["color"]
+    cells = hemicube(RESOLUTION)
+    view = View(38.0, 26.0)
+    figure, (axes,) = new_sketches((6.4, 5.0))
+    sketch = Sketch(axes, view)
+    # The side towards x and the top are seen; the side towards y too. All stand but those that hide the middle.
+    face = 0 if top else 1
+    shown = (cells.faces == face) | (cells.faces == (3 if top else 4))
+    per_area = shades(cells.delta)
+    sketch.patches(
+        [one for one, yes in zip(cells.corners, shown & (cells.faces != face), strict=True) if yes],
+        [one for one, yes in zip(per_area, shown & (cells.faces != face), strict=True) if yes],
+        linewidths=0.2,
+        zorder=1.5,
+        alpha=0.55,
+    )
+    base = np.array([[1, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]], float)
+    sketch.patch(base, face="#efece5", zorder=1)
+    own = cells.faces == face
+    sketch.patches(
+        [one for one, yes in zip(cells.corners, own, strict=True) if yes],
+        [one for one, yes in zip(per_area, own, strict=True) if yes],
+        linewidths=0.3,
+        zorder=3,
+        alpha=0.8,
+    )
+    sketch.box([-1, -1, 0], [1, 1, 1])
+    x, y, z = np.eye(3)
+    place = np.array([chosen[0], chosen[1], 1.0]) if top else np.array([1.0, chosen[0], chosen[1]])
+    number = int(np.argmin(np.linalg.norm(cells.middles - place, axis=1) + 9.0 * ~own))
+    middle = cells.middles[number]
+    sketch.patch(cells.corners[number], face=red, edge=red, zorder=6)
+    for axis, name in ((x, "x"), (y, "y"), (z, "z")):
+        sketch.arrow([0, 0, 0], 1.45 * axis, name, GREY, linewidth=0.8, zorder=4)
+    sketch.line([[0, 0, 0], middle], color=red, linewidth=1.4, zorder=6)
+    sketch.label(0.55 * middle, "$r$", (8, -6), color=red)
+    sketch.dot([0, 0, 0])
+    sketch.angle([0, 0, 0], z, middle, 0.42, "$\\theta_n$", "#222222", 10.0)
+    outward = z if top else x
+    sketch.arrow(middle, middle + 0.4 * outward, zorder=7, linewidth=1.0)
+    sketch.line([middle, middle * 1.32], color=red, linewidth=0.7, linestyle=(0, (3, 2)), zorder=6)
+    sketch.angle(middle, outward, middle, 0.26, "$\\theta_m$", "#222222", 11.0)
+    if top:
+        foot = np.array([middle[0], 0.0, 1.0])
+        sketch.line([z, foot, middle], color="#222222", linewidth=0.8, linestyle=(0, (3, 2)), zorder=6)
+        sketch.label((z + foot) / 2, "$x_q$", (-6, -8), fontsize=9)
+        sketch.label((foot + middle) / 2, "$y_q$", (3, -9), fontsize=9)
+    else:
+        foot = np.array([1.0, middle[1], 0.0])
+        sketch.line([x, foot, middle], color="#222222", linewidth=0.8, linestyle=(0, (3, 2)), zorder=6)
+        sketch.label((x + foot) / 2, "$y_q$", (3, -9), fontsize=9)
+        sketch.label((foot + middle) / 2, "$z_q$", (10, 0), fontsize=9)
+    sketch.label(middle, "$\\Delta A_q$", (26, -10), color=red)
+    sketch.frame()
+    return figure, middle
