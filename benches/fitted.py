@@ -14,7 +14,7 @@ import time
 from typing import Any
 
 from illuminant import spectra
-from illuminant.rendering import Job
+from illuminant.job import Job
 from illuminant.scene import Scene
 
 LAMPS = ("D65", "FL11", "A", "FL2", "LED-B3")

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from error_measure import mean_delta_e
-from illuminant.rendering import Job
+from illuminant.job import Job
 
 ROWS, COLUMNS = 224, 224
 SAMPLING = "uniform:4"

@@ -7,6 +7,7 @@ The seven names that most people need are here; everything else lives in the mod
     render(scene, ...)    make an `Image` of a scene or of a scene file
     compare(scene, ...)   one scene by every technique and illumination model
     diff(a, b)            CIEDE2000 and FLIP between two images
+    view(scene)           walk through a scene in a browser
     audit(material)       where the light goes that reaches a material, and which laws its model keeps
     Scene, Image          what the first two return
     Error                 base of every error raised on purpose; its kinds are in `illuminant.errors`
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from illuminant.image import Image
     from illuminant.rendering import render
     from illuminant.scene import Scene, load
+    from illuminant.viewer import view
 
     __version__: str
 
@@ -60,6 +62,7 @@ __all__ = [
     "diff",
     "load",
     "render",
+    "view",
 ]
 
 # Where each name lives. No module may bear the name of a function in this table: importing it would replace the
@@ -79,6 +82,7 @@ _HOME = {
     "diff": "difference",
     "load": "scene",
     "render": "rendering",
+    "view": "viewer",
 }
 
 

@@ -45,10 +45,10 @@ def problems(scene: Scene, threads: int = 0, words: Collection[str] = WORDS) -> 
     Raises:
         SceneError, MachineError: as `Scene.core`.
     """
-    from illuminant import view
+    from illuminant import visibility
 
     found: list[tuple[tuple[str, str], str, str]] = []
-    if view.blind(scene, threads):
+    if visibility.blind(scene, threads):
         found.append(
             (
                 ("camera", "eye"),

@@ -24,7 +24,8 @@ from typing import TYPE_CHECKING, Any
 from illuminant import output
 from illuminant.core import core, embree
 from illuminant.errors import DataError, UsageError, suggestion
-from illuminant.rendering import Job, OnProgress, RenderInterrupted, held
+from illuminant.job import Job, OnProgress, held
+from illuminant.rendering import RenderInterrupted
 from illuminant.settings import SOLVED, Settings, resolve
 
 if TYPE_CHECKING:

@@ -223,7 +223,7 @@ def test_an_output_lost_during_the_work_is_kept_elsewhere(
 ) -> None:
     import shutil
 
-    from illuminant.rendering import Job
+    from illuminant.job import Job
 
     folder, spare = scene.parent / "out", tmp_path_factory.mktemp("spare")
     folder.mkdir()
@@ -285,9 +285,9 @@ def test_a_crop_is_a_part_of_the_image(scene: Path, inside: Command) -> None:
 def test_ctrl_c_before_the_work_writes_nothing(
     scene: Path, inside: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from illuminant import rendering
+    from illuminant import job
 
-    class Swallowing(rendering.Job):
+    class Swallowing(job.Job):
         """A library that is imported while the scene is read may catch whatever is raised."""
 
         def __init__(self, *arguments: object, **options: object) -> None:
@@ -295,7 +295,7 @@ def test_ctrl_c_before_the_work_writes_nothing(
                 signal.raise_signal(signal.SIGINT)
             super().__init__(*arguments, **options)
 
-    monkeypatch.setattr(rendering, "Job", Swallowing)
+    monkeypatch.setattr(job, "Job", Swallowing)
     done = inside("render", scene, "-o", scene.with_suffix(".png"))
     assert (done.returncode, done.stderr) == (130, "Interrupted: nothing was written.\n")
     assert [item.name for item in scene.parent.iterdir()] == ["ball.toml"]

@@ -10,7 +10,7 @@ import illuminant
 from illuminant import spectra
 from illuminant.colorimetry import matching_functions
 from illuminant.difference import diff
-from illuminant.rendering import Job
+from illuminant.job import Job
 from illuminant.scene import Scene
 
 

@@ -37,6 +37,7 @@ from illuminant.cli import (
     render,
     spectra,
     video,
+    view,
 )
 from illuminant.cli.report import sentence
 
@@ -64,6 +65,7 @@ app.command("compare", short_help="Render by every technique and model.")(compar
 app.command("display", short_help="Show an image on a display.")(display.display)
 app.command("diff", short_help="Compare two images: ΔE00 and FLIP.")(diff.diff)
 app.command("audit", short_help="Test the physics of a material.")(audit.audit)
+app.command("view", short_help="Walk through a scene in a browser.")(view.view)
 app.command("atlas", short_help="Draw the figures and tables of the book.")(atlas.atlas)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
 app.add_typer(gamma.app, name="gamma", short_help="Tables, fits and studies of a monitor's gamma.")

@@ -31,7 +31,7 @@ from illuminant.cli.options import (
 
 if TYPE_CHECKING:
     from illuminant.image import Image, Saved
-    from illuminant.rendering import Job
+    from illuminant.job import Job
 
 __all__ = ["render"]
 
@@ -374,7 +374,7 @@ def render(
         "cube": cube,
     }
     with _Stop() as stop:
-        from illuminant.rendering import Job
+        from illuminant.job import Job
 
         job = stop.watch(Job(scene, **options))
         if pixel is not None:
@@ -398,7 +398,7 @@ def _render(job: Job, paths: list[Path], look: dict[str, Any], again: str, json:
     """Do the work, write the files, and say how it went."""
     from illuminant.cli.report import closing, emit_json, note, warning
     from illuminant.errors import Interrupted
-    from illuminant.rendering import held
+    from illuminant.job import held
 
     for text in job.warnings():
         warning(text)

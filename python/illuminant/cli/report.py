@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from illuminant.rendering import Progress
+    from illuminant.job import Progress
 
 __all__ = ["closing", "emit_json", "note", "progress_bar", "sentence", "warning"]
 

@@ -84,7 +84,7 @@ def sheet(
 
 
 def picture_sheet(
-    pictures: Sequence[Codes], captions: Sequence[str], columns: int, magnify: int = 1
+    pictures: Sequence[NDArray[Any]], captions: Sequence[str], columns: int, magnify: int = 1
 ) -> Figure:
     """A sheet as a figure, which `illuminant.plots.save` writes pixel for pixel.
 

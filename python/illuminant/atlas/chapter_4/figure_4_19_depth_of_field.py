@@ -123,7 +123,8 @@ def _met(distance: float, count: int) -> Array:
     """Where rays of the middle pixel meet a wall, (n, 2), in metres from the axis."""
     import numpy as np
 
-    from illuminant.rendering import Job, replay_job
+    from illuminant.job import Job
+    from illuminant.rendering import replay_job
     from illuminant.scene import Scene
 
     scene = Scene.build(

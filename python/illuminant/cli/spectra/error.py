@@ -36,7 +36,7 @@ def error(
       illuminant spectra error room.toml --sampling rgb --sampling fitted:12
     """
     from illuminant.cli.report import emit_json, warning
-    from illuminant.rendering import Job
+    from illuminant.job import Job
 
     rows = []
     wanted: list[str | None] = [*sampling] if sampling else [None]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from illuminant import examination, view
+from illuminant import examination, visibility
 from illuminant.errors import SceneError
 from illuminant.scene import Scene
 
@@ -43,25 +43,25 @@ GROUND = {"rectangle": {"corner": [-50, -1, 50], "edges": [[100, 0, 0], [0, 0, -
     ],
 )
 def test_what_is_in_the_view(camera, shape, blind):
-    assert view.blind(seen_by(camera, **shape)) is blind
+    assert visibility.blind(seen_by(camera, **shape)) is blind
 
 
 def test_what_hides_between_the_rays_of_the_grid_is_still_in_the_view():
     for shape in (SLIVER, FAR):
         scene = seen_by({}, **shape)
         assert not scene.core().sees_anything()
-        assert view.holds_anything(scene)
+        assert visibility.holds_anything(scene)
 
 
 def test_an_environment_is_seen_by_every_camera():
     sky = {"sky": {"kind": "environment", "spectrum": "D65", "luminance_cd_m2": 10}}
-    assert not view.blind(seen_by({"target": [0, 0, 1]}, sky, **BALL))
+    assert not visibility.blind(seen_by({"target": [0, 0, 1]}, sky, **BALL))
 
 
 def test_the_planes_are_the_sides_of_the_image():
     """A point projected to a pixel lies inside, if the pixel is in the image or in the margin around it."""
     scene = seen_by({"eye": [1, 2, 3], "target": [2, 1, -1]}, **BALL)
-    normals = view.planes(scene.description["camera"])
+    normals = visibility.planes(scene.description["camera"])
     points = np.random.default_rng(5).normal(size=(500, 3)) * 4
     inside = ((points - [1, 2, 3]) @ normals.T >= 0).all(axis=1)
     assert 10 < inside.sum() < 490

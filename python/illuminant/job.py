@@ -1,0 +1,406 @@
+"""A render under way: one scene with one set of options, in passes that can be stopped.
+
+Samples are taken in ranges over the whole image (1 of every pixel, then up to 4, 16 and 64, and from there
+64, or a quarter of what is done, at a time), so that an image which is stopped early is even. Ranges change
+no bit of the result: the film's sums are exact.
+
+When to end:
+
+- `samples=N`: after N samples of every pixel;
+- `time="30s"`: when the time is up. The last ranges are cut to what still fits, by the rate so far;
+- `error="1%"`: when 95 % of the pixels have a standard error of luminance below 1 % of the larger of the
+  pixel's luminance and the image's mean. The error is estimated from two independently scrambled halves of
+  the samples; the difference of two halves is a coarse estimate (one degree of freedom), so variances are
+  averaged over 5 × 5 pixels first, and no decision is taken before 64 samples.
+
+Ctrl-C ends the work between tiles; `Job.image` is then the partial image.
+
+Example:
+    >>> job = Job("scenes/cornell.toml", samples=4, size=(16, 16))       # doctest: +SKIP
+    >>> [done for done in job.passes()]                                 # doctest: +SKIP
+    [1, 4]
+"""
+
+from __future__ import annotations
+
+import os
+import time as clock
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from illuminant import machine
+from illuminant.core import core, embree
+from illuminant.errors import Error, MachineError, UsageError
+from illuminant.examination import WORDS, refuse
+from illuminant.film_memory import check_memory, check_shadow_maps
+from illuminant.image import Image
+from illuminant.settings import resolve
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from illuminant.kept_spectra import KeptSpectra
+    from illuminant.scene import Scene
+
+    Array = NDArray[np.floating[Any]]
+
+__all__ = [
+    "Job",
+    "OnProgress",
+    "Progress",
+    "held",
+    "next_range",
+    "resized",
+    "standard_error_fraction",
+]
+
+FAST_UNTIL, STEP = 64, 64
+LEAST_SAMPLES_FOR_ERROR = 64
+PIXELS_WITHIN_ERROR = 0.95
+MOST_SAMPLES = 2**32 - 1
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a render is.
+
+    Attributes:
+        fraction: of the whole, 0 to 1; None when that cannot be told yet.
+        samples: samples taken so far, mean over pixels.
+        seconds: since the work began.
+        msamples_per_second: rate so far, in millions of samples (paths).
+        seconds_left: estimate; None when that cannot be told yet.
+    """
+
+    fraction: float | None
+    samples: float
+    seconds: float
+    msamples_per_second: float
+    seconds_left: float | None
+
+
+OnProgress = Callable[[Progress], object]
+
+
+def next_range(done: int, limit: int | None) -> int:
+    """End of the range of samples that begins at `done`, when at most `limit` are wanted.
+
+    Example:
+        >>> ends = [0]
+        >>> while ends[-1] < 1000:
+        ...     ends.append(next_range(ends[-1], 1000))
+        >>> ends
+        [0, 1, 4, 16, 64, 128, 192, 256, 320, 384, 448, 512, 640, 768, 960, 1000]
+    """
+    if done < FAST_UNTIL:
+        end = max(1, 4 * done)
+    else:
+        end = done + max(1, done // (4 * STEP)) * STEP
+    return end if limit is None else min(end, limit)
+
+
+def standard_error_fraction(luminance: Array, standard_error: Array, target: float) -> float:
+    """Fraction of the pixels whose standard error of luminance is below `target`.
+
+    Args:
+        luminance: (h, w), in cd/m².
+        standard_error: (h, w), its estimate from two halves.
+        target: relative to the larger of the pixel's luminance and the mean of the image; 0.01 is 1 %.
+
+    Returns:
+        A number from 0 to 1; 0 for a black image, which proves nothing.
+
+    Example:
+        >>> import numpy as np
+        >>> standard_error_fraction(np.ones((4, 4)), np.full((4, 4), 0.009), 0.01)
+        1.0
+    """
+    import numpy as np
+
+    mean = float(luminance.mean())
+    if not mean > 0:
+        return 0.0
+    edge: Literal["reflect", "edge"] = "reflect" if min(luminance.shape) > 2 else "edge"
+    variance = np.pad(np.asarray(standard_error, np.float64) ** 2, 2, mode=edge)
+    for axis in (0, 1):
+        size = variance.shape[axis] - 4
+        variance = np.mean([np.take(variance, range(i, i + size), axis) for i in range(5)], axis=0)
+    within = np.sqrt(variance) < target * np.maximum(luminance, mean)
+    return float(within.mean())
+
+
+class Job:
+    """One scene being rendered with one set of options.
+
+    Args:
+        scene: a `Scene`, or the path of a scene file.
+        solution: the core's, where the light between surfaces has been solved for already.
+        like: a job of the same scene with another camera or other settings, whose wavelengths are taken over: to fit
+            them again takes longer than a first image of few pixels.
+        options: as `illuminant.render`.
+
+    Attributes:
+        scene, settings: what is rendered, and how.
+        done: samples of every pixel that complete ranges have taken.
+        interrupted: whether Ctrl-C ended the work.
+        stopped: whether `progress` ended it by returning False.
+    """
+
+    def __init__(
+        self,
+        scene: Scene | str | os.PathLike[str],
+        *,
+        solution: Any = None,
+        like: Job | None = None,
+        **options: Any,
+    ) -> None:
+        self.scene, self.source = _scene(scene)
+        defaults = self.scene.render_defaults
+        self.settings = resolve(defaults, **options)
+        if self.settings.size is not None:
+            self.scene = resized(self.scene, self.settings.size)
+        self.exposure: float | None = defaults.get("exposure")
+        self.done = 0
+        self.interrupted = False
+        self.stopped = False
+        width, height = _pixels(self.scene)
+        self.width, self.height = width, height
+        description = self.scene.description
+        lamps = sum(1 + bool(light.get("sun")) for light in description["lights"])
+        lamps += sum(thing["emission"] is not None for thing in description["objects"])
+        check_memory(self.settings, width * height, lamps)
+        check_shadow_maps(self.settings, description)
+        embree()
+        self._began = clock.monotonic()
+        try:
+            self.core_scene = self.scene.core(self.settings.threads)
+            refuse(self.scene, words=())
+            make: Any = core().Render if like is None else like.core_render.again
+            self.core_render: Any = make(self.core_scene, self.settings.to_core(), solution)
+        except Error:
+            raise
+        except ValueError as error:
+            # A word that the core does not know is a mistake of the scene, unless an option gave it.
+            refuse(self.scene, words=[word for word in WORDS if options.get(word) is None])
+            raise UsageError(self._blame(options) + _sentence(error)) from error
+        except MemoryError as error:
+            raise MachineError("There is not enough memory for this scene and image.") from error
+
+    def _blame(self, options: dict[str, Any]) -> str:
+        """The option that the core refuses, as the beginning of a sentence."""
+        for word in WORDS:
+            if options.get(word) is not None:
+                try:
+                    # As little work as there can be, should something have to be solved for.
+                    little = {"elements": 1, "cube": 4, "light_samples": 1, "form_factors": "rays:1"}
+                    core().Render(self.core_scene, resolve({**little, word: options[word]}).to_core())
+                except ValueError:
+                    return f"--{word} {options[word]}: "
+        return ""
+
+    def warnings(self) -> list[str]:
+        """Sentences on what in these settings does not suit this scene."""
+        return [*self.scene.warnings, *self.core_render.warnings()]
+
+    def spectral_error(self) -> dict[str, Any]:
+        """Error of the spectral sampling against 1 nm, in ΔE00, over what paths can meet in this scene."""
+        return dict(self.core_render.spectral_error())
+
+    def interrupt(self) -> None:
+        """End the work at the next tile, as Ctrl-C does; for signal handlers."""
+        self.interrupted = True
+
+    def passes(self, progress: OnProgress | None = None) -> Iterator[int]:
+        """Render range after range, and yield the number of samples each pixel then holds.
+
+        Ends when the settings say so, or after Ctrl-C (`interrupted`), or after `progress` returned False
+        (`stopped`).
+        """
+        self._began = clock.monotonic()
+        while not (self.interrupted or self.stopped) and (end := self._next()) > self.done:
+            if not self._run(end, progress):
+                return
+            self.done = end
+            yield end
+
+    def _next(self) -> int:
+        """End of the next range; `done` when there shall be none."""
+        settings = self.settings
+        end = next_range(self.done, settings.samples)
+        if (
+            settings.error is not None
+            and self.done >= LEAST_SAMPLES_FOR_ERROR
+            and self._precise(settings.error)
+        ):
+            return self.done
+        if settings.time is not None and self.done:
+            elapsed = clock.monotonic() - self._began
+            fits = int((settings.time - elapsed) * self.done / elapsed)
+            # A range that would take less than a twentieth of the time is not worth its last few samples.
+            return min(end, self.done + fits) if fits >= 1 else self.done
+        return min(end, MOST_SAMPLES)
+
+    def _precise(self, target: float) -> bool:
+        luminance = self.core_render.layer("xyz")[..., 1]
+        fraction = standard_error_fraction(luminance, self.core_render.standard_error(), target)
+        return fraction >= PIXELS_WITHIN_ERROR
+
+    def _run(self, end: int, progress: OnProgress | None) -> bool:
+        """Take the samples from `done` to `end`; whether they are complete."""
+
+        def report(part: float) -> bool:
+            if self.interrupted:
+                return False
+            try:
+                if progress is not None and progress(self._progress(end, part)) is False:
+                    self.stopped = True
+                return not self.stopped
+            except KeyboardInterrupt:
+                self.interrupted = True
+                return False
+
+        try:
+            complete = bool(self.core_render.run(self.done, end, report))
+        except KeyboardInterrupt:
+            complete, self.interrupted = False, True
+        except MemoryError as error:
+            raise MachineError("There is not enough memory for this image.") from error
+        if complete:
+            report(1.0)  # a range may be too short to have been reported at all
+        elif not self.stopped:
+            self.interrupted = True
+        return complete
+
+    def _progress(self, end: int, part: float) -> Progress:
+        seconds = clock.monotonic() - self._began
+        samples = self.done + (end - self.done) * part
+        rate = samples * self.width * self.height / max(seconds, 1e-9) / 1e6
+        settings = self.settings
+        parts = []
+        if settings.samples is not None:
+            parts.append(samples / settings.samples)
+        if settings.time is not None:
+            parts.append(seconds / settings.time)
+        fraction = (
+            min(1.0, max(parts)) if parts and (settings.error is None or settings.time is not None) else None
+        )
+        left = seconds * (1 - fraction) / fraction if fraction and seconds > 0.3 else None
+        return Progress(fraction, samples, seconds, rate, left)
+
+    def image(self) -> Image:
+        """What is done so far, as an image; it stands on its own and may be kept."""
+        import numpy as np
+
+        render = self.core_render
+        names = [name for name in render.layers() if name not in ("xyz", "halves")]
+        layers = {name: np.asarray(render.layer(name)) for name in names}
+        held = np.asarray(render.samples())
+        if "samples" in self.settings.layers:
+            layers["samples"] = held[..., None]
+        seconds = clock.monotonic() - self._began
+        statistics = dict(render.statistics())
+        statistics |= {
+            "wall_seconds": seconds,
+            "samples_per_pixel": float(held.mean()),
+            "least_samples": int(held.min()),
+            "most_samples": int(held.max()),
+            "peak_memory": machine.peak_memory(),
+        }
+        spectra = "spectra" in layers
+        order = np.argsort(render.wavelengths(), kind="stable")
+        for name in [name for name in layers if name.partition(":")[0] == "spectra"]:
+            layers[name] = layers[name][..., order]
+        return Image(
+            np.asarray(render.layer("xyz")),
+            layers=layers,
+            settings=self._header(int(held.max()), statistics),
+            exposure=self.exposure,
+            statistics=statistics,
+            wavelengths_nm=np.asarray(render.wavelengths())[order] if spectra else None,
+            to_xyz=np.asarray(render.to_xyz())[:, order] if spectra else None,
+            basis=self._basis() if spectra else None,
+        )
+
+    def _basis(self) -> KeptSpectra:
+        """What the lanes of the image mean."""
+        from illuminant.kept_spectra import KeptSpectra
+
+        description = self.scene.description
+        settings = self.settings
+        fog = description.get("atmosphere") is not None
+        return KeptSpectra.of_render(
+            self.core_render, description["range"], settings.sampling, settings.develop_for, fog
+        )
+
+    def _header(self, most: int, statistics: dict[str, Any]) -> dict[str, Any]:
+        """How the image was made, with nothing in it that changes from run to run of the same image."""
+        import illuminant
+
+        camera = self.scene.description["camera"]
+        return {
+            "version": illuminant.__version__,
+            "scene": self.source,
+            "scene_hash": self.scene.hash(),
+            "size": list(camera["size"]),
+            **({"crop": list(camera["crop"])} if camera.get("crop") else {}),
+            # Where the work was cut off within a range, some pixels hold more than all do.
+            "samples": self.done if most <= self.done else [self.done, most],
+            **self.settings.to_header(),
+            "dropped": int(statistics.get("dropped", 0)),
+        }
+
+
+def _scene(scene: Scene | str | os.PathLike[str]) -> tuple[Scene, str]:
+    """The scene, and the path that names it in a header."""
+    from illuminant.scene import Scene
+
+    if isinstance(scene, Scene):
+        return scene, scene.path or ""
+    return Scene.load(scene), os.fspath(scene)
+
+
+def _pixels(scene: Scene) -> tuple[int, int]:
+    """Width and height of what is rendered: the crop, or the whole image."""
+    camera = scene.description["camera"]
+    crop = camera.get("crop")
+    if crop:
+        return int(crop[2] - crop[0]), int(crop[3] - crop[1])
+    return int(camera["size"][0]), int(camera["size"][1])
+
+
+def resized(scene: Scene, size: tuple[int, int]) -> Scene:
+    """The same scene with another image size.
+
+    Raises:
+        UsageError: the scene has a crop that the new image does not hold.
+    """
+    crop = scene.description["camera"].get("crop")
+    if crop and (crop[2] > size[0] or crop[3] > size[1]):
+        raise UsageError(
+            f"--size {size[0]}x{size[1]}: the scene's crop ends at {crop[2]},{crop[3]}, outside this image."
+        )
+    return scene.replace(camera={"size": list(size)})
+
+
+def _sentence(error: Exception) -> str:
+    return str(error).strip().rstrip(".") + "."
+
+
+def held(image: Image) -> str:
+    """How many samples an image holds, as part of a sentence.
+
+    Example:
+        >>> import numpy as np
+        >>> held(Image(np.zeros((1, 1, 3)), statistics={"least_samples": 16, "most_samples": 64,
+        ...                                             "samples_per_pixel": 20.0}))
+        'every pixel holds 16 samples or more, 20.0 on average'
+    """
+    least, most = int(image.statistics["least_samples"]), int(image.statistics["most_samples"])
+    mean = float(image.statistics["samples_per_pixel"])
+    if least == most:
+        return f"every pixel holds {least} sample{'' if least == 1 else 's'}"
+    if least == 0:
+        return f"some pixels hold no sample yet and are black, {mean:.1f} on average"
+    return f"every pixel holds {least} samples or more, {mean:.1f} on average"

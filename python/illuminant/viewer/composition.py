@@ -1,0 +1,132 @@
+"""What is made of a picture before the page gets it: the look, false colours, marks, and two settings side by side."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from illuminant.viewer.state import State
+
+    Codes = NDArray[np.uint8]
+
+__all__ = ["MODES", "Composed", "compose", "difference_map", "false_colour", "split"]
+
+MODES = ("picture", "luminance in false colours", "colours out of gamut marked")
+DECADES = 3.0
+"""How far below the brightest the scale of false colours begins, in powers of ten."""
+
+MARK = (255, 0, 255)
+
+
+@dataclass(frozen=True)
+class Composed:
+    """A picture for the page.
+
+    Attributes:
+        codes: (h, w, 3), for the browser, which takes them for sRGB.
+        scale: luminances at the ends of the scale of false colours, cd/m²; None for a picture.
+        outside: fraction of pixels that the gamut's method had to move.
+    """
+
+    codes: Codes
+    scale: tuple[float, float] | None
+    outside: float
+
+
+def compose(xyz: NDArray[np.floating[Any]], state: State, mode: str = MODES[0]) -> Composed:
+    """The code values of an image as a state shows it.
+
+    Args:
+        xyz: (h, w, 3), absolute.
+        state: whose look and exposure count.
+        mode: one of `MODES`.
+    """
+    import numpy as np
+
+    from illuminant.display.look import show
+
+    look = replace(state.look, exposure=state.exposure, bits=8)
+    shown = show(xyz, look)
+    if mode == MODES[1]:
+        codes, scale = false_colour(xyz[..., 1])
+        return Composed(codes, scale, shown.outside)
+    codes = np.ascontiguousarray(shown.picture.codes).astype(np.uint8)
+    if mode == MODES[2]:
+        linear = xyz @ np.linalg.inv(look.target.to_xyz_matrix).T * (look.exposure or 1.0)
+        outside = (linear < -1e-4).any(axis=2) | (linear > 1.0 + 1e-4).any(axis=2)
+        codes[outside] = MARK
+    return Composed(codes, None, shown.outside)
+
+
+def false_colour(luminance: NDArray[np.floating[Any]]) -> tuple[Codes, tuple[float, float]]:
+    """Luminance on a logarithmic scale of three powers of ten below its 99.5th percentile, and the scale's ends.
+
+    Example:
+        >>> import numpy as np
+        >>> codes, (low, high) = false_colour(np.array([[1.0, 1000.0]]))
+        >>> round(high / low)
+        1000
+    """
+    import numpy as np
+    from matplotlib import colormaps
+
+    positive = luminance[luminance > 0]
+    top = float(np.percentile(positive, 99.5)) if positive.size else 1.0
+    low = top / 10**DECADES
+    place = np.log10(np.maximum(luminance, low) / low) / DECADES
+    return np.asarray(colormaps["viridis"](np.clip(place, 0, 1), bytes=True)[..., :3]), (low, top)
+
+
+def split(left: Codes, right: Codes, fraction: float) -> Codes:
+    """Two pictures with a divider, left of which the first is seen; the smaller is enlarged to the other.
+
+    Example:
+        >>> import numpy as np
+        >>> a, b = np.zeros((2, 10, 3), np.uint8), np.full((2, 10, 3), 200, np.uint8)
+        >>> split(a, b, 0.5)[0, :, 0].tolist()
+        [0, 0, 0, 0, 0, 255, 200, 200, 200, 200]
+    """
+    import numpy as np
+
+    height, width = max(left.shape[0], right.shape[0]), max(left.shape[1], right.shape[1])
+    first, second = _enlarged(left, height, width), _enlarged(right, height, width)
+    column = min(max(round(fraction * width), 0), width)
+    joined = np.concatenate([first[:, :column], second[:, column:]], axis=1)
+    if 0 < column < width:
+        joined[:, column] = 255
+    return joined
+
+
+def difference_map(a: NDArray[Any], b: NDArray[Any], exposure: float, kind: str) -> tuple[Codes, float]:
+    """A map of ΔE00 (0 to 10) or FLIP (0 to 1) between two images of XYZ of one size, and the mean.
+
+    Args:
+        a, b: (h, w, 3), absolute.
+        exposure: factor to the display's white.
+        kind: `ΔE00` or `FLIP`.
+    """
+    import numpy as np
+    from matplotlib import colormaps
+
+    from illuminant.difference import diff
+    from illuminant.image import Image
+
+    found = diff(Image(a), Image(b), exposure=exposure)
+    values, top = (found.delta_e, 10.0) if kind == "ΔE00" else (found.flip_map, 1.0)
+    mean = found.mean if kind == "ΔE00" else found.flip
+    place = np.clip(np.asarray(values) / top, 0, 1)
+    return np.asarray(colormaps["magma"](place, bytes=True)[..., :3]), float(mean)
+
+
+def _enlarged(codes: Codes, height: int, width: int) -> Codes:
+    import numpy as np
+
+    if codes.shape[:2] == (height, width):
+        return codes.copy()
+    rows = np.arange(height) * codes.shape[0] // height
+    columns = np.arange(width) * codes.shape[1] // width
+    return np.asarray(codes[rows][:, columns])

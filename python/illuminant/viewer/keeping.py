@@ -1,0 +1,156 @@
+"""What a page keeps: files in the viewer's output folder, under names that the page cannot choose.
+
+Names are made of the scene's and a number that is free, so nothing is overwritten and no path can be given.
+"""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from illuminant import output
+from illuminant.errors import UsageError
+from illuminant.viewer.tables import relocate
+
+if TYPE_CHECKING:
+    from illuminant.viewer.session import Session
+
+__all__ = ["command", "image", "scene", "solution", "spectrum"]
+
+
+def image(session: Session) -> list[Path]:
+    """The picture at hand, as PNG with the look and as EXR in absolute XYZ.
+
+    Raises:
+        UsageError: there is no picture yet.
+    """
+    from dataclasses import replace
+
+    frame = session.frame
+    if frame is None:
+        raise UsageError("There is no picture yet.")
+    look = replace(session.state.look, exposure=session.state.exposure)
+    files = [_free(session, "view", ".png"), _free(session, "view", ".exr")]
+    frame.image.save(files[0], look=look)
+    frame.image.save(files[1])
+    return files
+
+
+def scene(session: Session) -> list[Path]:
+    """The scene as it stands, camera included: the file that was read with the changed tables in it.
+
+    Raises:
+        UsageError: the scene was no file.
+    """
+    path = session.state.scene.path
+    if not session.state.tables or path is None:
+        raise UsageError("Only a scene that was read from a file can be written.")
+    import tomlkit
+
+    document: Any = tomlkit.parse(Path(path).read_text(encoding="utf-8"))
+    for kind in ("materials", "lights"):
+        before, now = session.start.tables.get(kind, {}), session.state.tables.get(kind, {})
+        for name, table in now.items():
+            if table != before.get(name):
+                _update(document[kind][name], table)
+    camera = session.state.scene.replace(camera=session.camera()).frame["camera"]
+    wanted = {key: camera[key] for key in ("eye", "target", "up", "field_of_view", "size") if key in camera}
+    _update(document["camera"], dict(document["camera"]) | _plain(wanted))
+    document["camera"].pop("crop", None)
+    target = _free(session, "scene", ".toml")
+    relocate(document, Path(path).parent, lambda file: Path(os.path.relpath(file, target.parent)))
+    output.write_bytes(target, tomlkit.dumps(document).encode())
+    return [target]
+
+
+def spectrum(session: Session) -> list[Path]:
+    """The spectrum of the last reading, as CSV.
+
+    Raises:
+        UsageError: nothing has been read yet.
+    """
+    found = session.last_reading
+    if found is None:
+        raise UsageError("Nothing has been read yet: click a point.")
+    lines = ["wavelength_nm,radiance_w_sr_m2_nm"]
+    lines += [f"{nm:g},{value:.8g}" for nm, value in zip(found.wavelengths_nm, found.radiance, strict=True)]
+    target = _free(session, "spectrum", ".csv")
+    output.write_bytes(target, ("\n".join(lines) + "\n").encode())
+    return [target]
+
+
+def solution(session: Session) -> list[Path]:
+    """The solution of radiosity.
+
+    Raises:
+        UsageError: the technique has none, or it is not there yet.
+    """
+    if session.refiner.solution is None:
+        raise UsageError("There is no solution: choose radiosity or hybrid, and wait for it.")
+    target = _free(session, "view", ".solution")
+    session.refiner.solution.save(target)
+    return [target]
+
+
+def command(session: Session) -> str:
+    """The command line that renders the view; the scene is written first if it differs from its file.
+
+    Raises:
+        UsageError: the scene was no file.
+    """
+    state = session.state
+    file = scene(session)[0]
+    camera = session.camera()
+    words = ["illuminant", "render", str(file), "-o", f"{file.stem}.png"]
+    words += [
+        "--technique",
+        state.technique,
+        "--illumination",
+        state.illumination,
+        "--sampling",
+        state.sampling,
+    ]
+    words += ["--size", f"{camera['size'][0]}x{camera['size'][1]}"]
+    if session.frame is not None and not session.frame.preview:
+        words += ["--samples", str(session.frame.samples)]
+    if state.exposure is not None:
+        words += ["--exposure", f"{state.exposure:.6g}"]
+    words += [
+        "--display",
+        str(state.look.display),
+        "--gamut",
+        state.look.method,
+        "--dither",
+        state.look.dither,
+    ]
+    return shlex.join(words)
+
+
+def _free(session: Session, what: str, ending: str) -> Path:
+    """A file of the output folder that is not there yet."""
+    stem = Path(session.state.scene.path or "scene").stem
+    for number in range(1, 10_000):
+        path = session.folder / f"{stem}-{what}-{number}{ending}"
+        if not path.exists():
+            return output.check(path)
+    raise UsageError(f"{session.folder} holds 9,999 of these files already.")
+
+
+def _update(target: Any, table: Mapping[str, Any]) -> None:
+    """Make a table of the document hold these keys, and leave what is the same as it is written."""
+    for key in [key for key in target if key not in table]:
+        del target[key]
+    for key, value in table.items():
+        if key not in target or target[key] != value:
+            target[key] = value
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    return round(float(value), 9) if isinstance(value, float) else value

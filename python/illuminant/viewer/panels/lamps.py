@@ -1,0 +1,59 @@
+"""Power and spectrum of each lamp."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from illuminant.errors import Error
+from illuminant.viewer.tables import lamps, relit
+
+if TYPE_CHECKING:
+    from illuminant.viewer.session import Session
+
+__all__ = ["LampPanel"]
+
+OWN = "its own"
+BLACKBODY = "black body"
+
+
+class LampPanel:
+    """The folder of lamps."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        found = lamps(session.start.tables)
+        if not found:
+            return
+        with session.client.gui.add_folder("Lamps", expand_by_default=False):
+            for kind, name, table in found:
+                self._lamp(kind, name, table)
+
+    def _lamp(self, kind: str, name: str, table: dict[str, Any]) -> None:
+        from illuminant import spectra
+
+        gui = self._session.client.gui
+        with gui.add_folder(name):
+            power = gui.add_slider("power, ×", 0.0, 4.0, 0.05, 1.0)
+            spectrum = None
+            if "spectrum" in table:
+                spectrum = gui.add_dropdown(
+                    "spectrum", [OWN, BLACKBODY, *spectra.names("emission")], initial_value=OWN
+                )
+                kelvin = gui.add_slider("temperature, K", 1500, 12000, 50, 2856, visible=False)
+
+        def chosen() -> None:
+            word: Any = None
+            if spectrum is not None:
+                kelvin.visible = spectrum.value == BLACKBODY
+                if spectrum.value == BLACKBODY:
+                    word = {"blackbody_k": float(kelvin.value)}
+                elif spectrum.value != OWN:
+                    word = spectrum.value
+            try:
+                changed = {name: relit(table, float(power.value), word)}
+                self._session.change(self._session.state.with_tables(**{kind: changed}))
+            except Error as error:
+                self._session.say(str(error), True)
+
+        for control in (power, spectrum, kelvin) if spectrum is not None else (power,):
+            control.on_update(lambda _: chosen())

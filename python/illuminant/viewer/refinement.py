@@ -1,0 +1,307 @@
+"""A picture that becomes right while the camera rests.
+
+One thread for each page renders what was asked for last. At first a picture of few pixels, in wavelengths that need no
+fitting, so that it is there in a fifth of a second; then the whole picture, pass after pass. Whatever is asked for
+meanwhile ends the work at the next tile. Nothing here knows of browsers: frames are handed to `deliver`, sentences to
+`say`.
+
+What is expensive is kept: the wavelengths, while only the camera changes; the solution of radiosity, which is relit or
+repainted (`Solution.of`) where that is enough.
+"""
+
+from __future__ import annotations
+
+import threading
+import time as clock
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from illuminant.errors import Error, UsageError
+from illuminant.job import Job
+from illuminant.settings import SOLVED
+from illuminant.viewer.camera import limited
+
+if TYPE_CHECKING:
+    from illuminant.image import Image
+    from illuminant.radiosity import Solution
+    from illuminant.viewer.state import State
+
+__all__ = ["Frame", "Refiner", "Request"]
+
+PREVIEW_SECONDS = 0.1
+PREVIEW_SAMPLING = "uniform:8"
+MOST_SAMPLES = 4096
+ERROR = 0.002
+"""Relative standard error at which a picture is good."""
+GATHERED_SAMPLES = 16
+"""Samples of a view of a solution, which shows no noise but at edges."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What shall be shown.
+
+    Attributes:
+        state: what is chosen.
+        camera: of the page, as `Scene.description["camera"]`; its size is that of the whole picture.
+        number: later requests have larger ones.
+        asked: when, by `time.perf_counter`.
+    """
+
+    state: State
+    camera: Mapping[str, Any]
+    number: int
+    asked: float
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A picture on its way to the page.
+
+    Attributes:
+        request: what it answers.
+        image: in absolute XYZ.
+        preview: whether it is smaller than the whole.
+        samples: of each pixel.
+        seconds: since it was asked for.
+        mrays: millions of rays a second.
+        left: seconds until `MOST_SAMPLES`, if that can be told.
+        error: relative standard error of luminance, a mean over the picture; None where it is not estimated.
+    """
+
+    request: Request
+    image: Image
+    preview: bool
+    samples: int
+    seconds: float
+    mrays: float
+    left: float | None
+    error: float | None
+
+
+class Refiner:
+    """The thread that renders for one page.
+
+    Args:
+        deliver: takes each frame, on the refiner's thread.
+        say: takes a sentence on what is being done or what went wrong, and whether it is an error.
+    """
+
+    def __init__(self, deliver: Callable[[Frame], object], say: Callable[[str, bool], object]) -> None:
+        self._deliver, self._say = deliver, say
+        self._wanted: Request | None = None
+        self._number = 0
+        self._closed = False
+        self._condition = threading.Condition()
+        self._rate = 0.3  # Msamples/s of previews so far
+        self._kept: tuple[State, Job] | None = None
+        self.solution: Solution | None = None
+        self._solved_for: State | None = None
+        self._solving: State | None = None
+        self._latest: Request | None = None
+        self.relit_seconds: float | None = None
+        self._thread = threading.Thread(target=self._loop, name="illuminant refiner", daemon=True)
+        self._thread.start()
+
+    def ask(self, state: State, camera: Mapping[str, Any]) -> int:
+        """Show this instead of whatever is being rendered; the number of the request."""
+        with self._condition:
+            self._number += 1
+            self._wanted = Request(state, camera, self._number, clock.perf_counter())
+            self._condition.notify()
+            return self._number
+
+    def close(self) -> None:
+        """End the work and the thread."""
+        with self._condition:
+            self._closed = True
+            self._condition.notify()
+        if threading.current_thread() is not self._thread:
+            self._thread.join(timeout=10.0)
+
+    def _current(self, request: Request) -> bool:
+        return not self._closed and request.number == self._number
+
+    def _loop(self) -> None:
+        while True:
+            with self._condition:
+                while self._wanted is None and not self._closed:
+                    self._condition.wait()
+                if self._closed:
+                    return
+                request, self._wanted = self._wanted, None
+                self._latest = request
+            assert request is not None
+            try:
+                self._follow(request)
+            except Error as error:
+                self._say(str(error), True)
+            except Exception as error:  # the page shall show it, and the next request shall be served
+                self._say(f"{type(error).__name__}: {error}", True)
+
+    def _follow(self, request: Request) -> None:
+        """Render what is asked for until it is good, or until something else is asked for."""
+        self._preview(request)
+        if not self._current(request):
+            return
+        job = self._job(request)
+        if job is None or not self._current(request):
+            return
+        for samples in job.passes(lambda _: self._current(request)):
+            if not self._current(request):
+                return
+            self._deliver(self._frame(request, job, samples, preview=False))
+        if self._current(request):
+            self._say("", False)
+
+    # --- the picture of few pixels -------------------------------------------------------------------------------
+
+    def _preview(self, request: Request) -> None:
+        state = request.state
+        width, height = request.camera["size"]
+        size = limited(width, height, max(1000, int(self._rate * 1e6 * PREVIEW_SECONDS)))
+        kept = self._like(request)
+        known = state.technique not in SOLVED or self._solved(state) or self._relit(state)
+        camera = dict(request.camera) | {"size": list(size)}
+        options: dict[str, Any] = {"technique": state.technique, "illumination": state.illumination}
+        if not known:
+            options = {"technique": "path", "illumination": "general"}
+        job = Job(
+            state.scene.replace(camera=camera),
+            **options,
+            sampling=state.sampling if kept else PREVIEW_SAMPLING,
+            samples=1,
+            like=kept,
+            solution=self._core_solution(state) if known else None,
+        )
+        start = clock.perf_counter()
+        for samples in job.passes(lambda _: self._current(request)):
+            self._rate = size[0] * size[1] / max(clock.perf_counter() - start, 1e-4) / 1e6
+            self._deliver(self._frame(request, job, samples, preview=True))
+
+    # --- the whole picture ---------------------------------------------------------------------------------------
+
+    def _job(self, request: Request) -> Job | None:
+        state = request.state
+        samples = MOST_SAMPLES
+        if state.technique in SOLVED:
+            if not self._ready(state) or not self._current(request):
+                return None
+            samples = GATHERED_SAMPLES if state.technique != "hybrid" else MOST_SAMPLES
+        job = Job(
+            state.scene.replace(camera=request.camera),
+            technique=state.technique,
+            illumination=state.illumination,
+            sampling=state.sampling,
+            samples=samples,
+            error=ERROR if state.technique in ("path", "distributed", "hybrid") else None,
+            like=self._like(request),
+            solution=self._core_solution(state),
+        )
+        self._kept = (state, job)
+        return job
+
+    def _like(self, request: Request) -> Job | None:
+        """A job whose wavelengths serve."""
+        kept = self._kept
+        return None
+        return kept[1] if kept is not None and _same(kept[0], request.state) else None
+
+    # --- the solution --------------------------------------------------------------------------------------------
+
+    def _solved(self, state: State) -> bool:
+        """Whether the solution at hand is that of this state."""
+        return self._solved_for is not None and _same(self._solved_for, state, "elements")
+
+    def _core_solution(self, state: State) -> Any:
+        return self.solution._core if state.technique in SOLVED and self.solution is not None else None
+
+    def _ready(self, state: State) -> bool:
+        """Whether there is a solution for a state, relit or repainted if that does; else it is solved for meanwhile."""
+        return self._solved(state) or self._relit(state) or self._solve(state)
+
+    def _relit(self, state: State) -> bool:
+        """Make the solution at hand one of a state with other lamps or paints; whether that was possible."""
+        before = self._solved_for
+        if (
+            self.solution is None
+            or before is None
+            or not _same(replace(before, scene=state.scene), state, "elements")
+        ):
+            return False
+        start = clock.perf_counter()
+        try:
+            self.solution = self.solution.of(state.scene)
+        except UsageError:
+            return False  # more has changed than can be relit
+        self._solved_for = state
+        self.relit_seconds = clock.perf_counter() - start
+        return True
+
+    def _solve(self, state: State) -> bool:
+        """Solve for a state on a thread of its own, so that the camera can move on; False, for it is not there yet."""
+        if self._solving is None:
+            self._solving = state
+            self._say(f"Solving for the light between about {state.elements} elements …", False)
+            threading.Thread(
+                target=self._solver, args=(state,), name="illuminant solver", daemon=True
+            ).start()
+        return False
+
+    def _solver(self, state: State) -> None:
+        from illuminant import radiosity
+
+        options: dict[str, Any] = (
+            {} if state.technique == "specular-radiosity" else {"elements": state.elements}
+        )
+        try:
+            found = radiosity.solve(
+                state.scene,
+                technique=state.technique,
+                illumination=state.illumination,
+                sampling=state.sampling,
+                **options,
+            )
+        except Exception as error:
+            self._say(str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}", True)
+            self._solving = None
+            return
+        with self._condition:
+            self.solution, self._solved_for, self._solving = found, state, None
+            if self._wanted is None and self._latest is not None and not self._closed:
+                # What was asked for last, which may be another state by now, goes on.
+                self._number += 1
+                self._wanted = replace(self._latest, number=self._number)
+                self._condition.notify()
+
+    # --- frames --------------------------------------------------------------------------------------------------
+
+    def _frame(self, request: Request, job: Job, samples: int, *, preview: bool) -> Frame:
+        image = job.image()
+        seconds = max(float(image.statistics["seconds"]), 1e-6)
+        limit = job.settings.samples or MOST_SAMPLES
+        return Frame(
+            request,
+            image,
+            preview,
+            samples,
+            seconds=clock.perf_counter() - request.asked,
+            mrays=float(image.statistics["rays"]) / seconds / 1e6,
+            left=None if preview else seconds * (limit / samples - 1.0),
+            error=None if preview or samples < 4 or job.settings.error is None else _error(job),
+        )
+
+
+def _error(job: Job) -> float:
+    """Root mean square of the pixels' standard errors of luminance, relative to the mean of the picture."""
+    import numpy as np
+
+    mean = float(job.core_render.layer("xyz")[..., 1].mean())
+    return float(np.sqrt(np.mean(np.square(job.core_render.standard_error())))) / mean if mean > 0 else 0.0
+
+
+def _same(a: State, b: State, *more: str) -> bool:
+    """Whether two states have the same scene and are rendered alike."""
+    words = ("technique", "illumination", "sampling", *more)
+    return a.scene is b.scene and all(getattr(a, word) == getattr(b, word) for word in words)

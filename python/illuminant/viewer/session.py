@@ -1,0 +1,215 @@
+"""One page: its camera, its choices, its pictures. Pages share nothing, so that viewers do not disturb each other."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from illuminant.errors import Error
+from illuminant.viewer.camera import limited, scene_camera, vertical_rad
+from illuminant.viewer.composition import MODES, compose, difference_map, split
+from illuminant.viewer.refinement import Frame, Refiner
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from illuminant.viewer.reading import Reading
+    from illuminant.viewer.state import State
+
+__all__ = ["Session"]
+
+MOST_PIXELS = 1280 * 800
+"""Of a picture; the page enlarges it to the window."""
+
+ENOUGH_SAMPLES = 16
+"""Of a picture that says what is white."""
+
+
+class Session:
+    """What one page sees and does.
+
+    Args:
+        client: viser's handle of the page.
+        state: at the start.
+        folder: where what the page keeps is written, and nowhere else.
+    """
+
+    def __init__(self, client: Any, state: State, folder: Path) -> None:
+        self.client, self.state, self.folder = client, state, folder
+        self.start = state
+        self.mode = MODES[0]
+        self.frame: Frame | None = None
+        self.held: State | None = None
+        self.held_frame: Frame | None = None
+        self.divider = 0.5
+        self.map = "none"
+        self._exposure_from = 0 if state.look.exposure is None else ENOUGH_SAMPLES
+        self._lock = threading.RLock()
+        self._shown_camera: Any = None
+        self.refiner = Refiner(self._deliver, self.say)
+        self._second: Refiner | None = None
+        self.last_reading: Reading | None = None
+        from illuminant.viewer.panels import Panels
+
+        self.panels = Panels(self)
+        client.camera.on_update(self._moved)
+        client.scene.on_click()(self._clicked)
+        self.ask()
+
+    # --- camera --------------------------------------------------------------------------------------------------
+
+    def place_camera(self, camera: Any) -> None:
+        """Turn the page's camera to one of the scene's."""
+        view = self.client.camera
+        width, height = camera["size"]
+        with self.client.atomic():
+            view.up_direction = camera["up"]
+            view.position = camera["eye"]
+            view.look_at = camera["target"]
+            view.fov = vertical_rad(camera["field_of_view_deg"], width, height)
+
+    def camera(self) -> dict[str, Any]:
+        """The page's camera, as the scene has cameras."""
+        import numpy as np
+
+        view = self.client.camera
+        size = limited(max(1, view.image_width), max(1, view.image_height), MOST_PIXELS)
+        distance = float(np.linalg.norm(np.asarray(view.look_at) - np.asarray(view.position))) or 1.0
+        own = self.state.scene.description["camera"]
+        return scene_camera(own, view.wxyz, view.position, view.fov, size, distance)
+
+    def _moved(self, _: Any) -> None:
+        if self.camera() != self._shown_camera:
+            self.ask()
+
+    def preset(self, name: str) -> None:
+        """Turn the page's camera to the scene's own, or to one beside or above what that looks at."""
+        import numpy as np
+
+        own = self.start.scene.description["camera"]
+        if name == "scene":
+            self.place_camera(own)
+            return
+        eye, target, up = (np.asarray(own[key], float) for key in ("eye", "target", "up"))
+        away = eye - target
+        up = up / np.linalg.norm(up)
+        level = away - (away @ up) * up
+        side = np.cross(up, level)
+        turned = {
+            "left": -side + (away @ up) * up,
+            "right": side + (away @ up) * up,
+            "above": np.linalg.norm(away) * up + 0.02 * level,
+        }[name]
+        self.place_camera(dict(own) | {"eye": (target + turned).tolist()})
+
+    # --- rendering -----------------------------------------------------------------------------------------------
+
+    def change(self, state: State) -> None:
+        """Show another state."""
+        with self._lock:
+            self.state = state
+        self.ask()
+
+    def look_at(self, state: State) -> None:
+        """Show the same light in another look."""
+        with self._lock:
+            self.state = state
+        self.show()
+
+    def ask(self) -> None:
+        """Render what is chosen, from where the page's camera stands."""
+        with self._lock:
+            camera = self._shown_camera = self.camera()
+            self.refiner.ask(self.state, camera)
+            if self.held is not None and self._second is not None:
+                self._second.ask(self.held, camera)
+
+    def hold(self, wanted: bool) -> None:
+        """Hold the present setting, to be seen beside what is chosen from now on; or let it go."""
+        with self._lock:
+            self.held = self.state if wanted else None
+            self.held_frame = None
+            if wanted and self._second is None:
+                self._second = Refiner(self._deliver_held, self.say)
+        self.ask()
+
+    def _deliver(self, frame: Frame) -> None:
+        with self._lock:
+            self.frame = frame
+            if self._exposure_from < ENOUGH_SAMPLES:
+                # A few noisy pixels say little of what is white: a better picture sets the exposure again.
+                self._exposure_from = frame.samples
+                look = replace(self.state.look, exposure=frame.image.auto_exposure())
+                self.state = replace(self.state, look=look)
+        self.show()
+        self.panels.progress(frame)
+
+    def _deliver_held(self, frame: Frame) -> None:
+        with self._lock:
+            self.held_frame = frame
+        self.show()
+
+    def show(self) -> None:
+        """Send the picture as it is now, with all that is drawn into it."""
+        with self._lock:
+            frame, other, state = self.frame, self.held_frame, self.state
+            if frame is None:
+                return
+            codes = self.composed(frame, state)
+            if other is not None and self.held is not None:
+                held = replace(self.held, look=state.look, stops=state.stops)
+                codes = self._beside(other, held, frame, codes)
+        self.client.scene.set_background_image(codes, format="png")
+
+    def _beside(self, other: Frame, held: State, frame: Frame, codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """The held setting at the left and the chosen one at the right, or the map of their difference."""
+        a, b = other.image.xyz, frame.image.xyz
+        if self.map != "none" and a.shape == b.shape:
+            codes, mean = difference_map(a, b, self.state.exposure or 1.0, self.map)
+            self.panels.compare.mean(self.map, mean)
+            return codes
+        self.panels.compare.mean("none", 0.0)
+        return split(self.composed(other, held), codes, self.divider)
+
+    def composed(self, frame: Frame, state: State) -> NDArray[np.uint8]:
+        """The codes of a frame."""
+        made = compose(frame.image.xyz, state, self.mode)
+        if frame is self.frame:
+            self.panels.facts(made)
+        return made.codes
+
+    def say(self, text: str, wrong: bool) -> None:
+        """Show a sentence in the page."""
+        self.panels.say(text, wrong)
+
+    # --- reading -------------------------------------------------------------------------------------------------
+
+    def _clicked(self, event: Any) -> None:
+        x, y = event.screen_pos[0] if isinstance(event.screen_pos[0], (tuple, list)) else event.screen_pos
+        self.read(float(x), float(y))
+
+    def read(self, across: float, down: float) -> None:
+        """Read the point at fractions of width and height."""
+        from illuminant.viewer.reading import read
+
+        with self._lock:
+            camera, state = self._shown_camera, self.state
+        width, height = camera["size"]
+        pixel = min(int(across * width), width - 1), min(int(down * height), height - 1)
+        try:
+            found = self.last_reading = read(state, camera, pixel, self.refiner.solution)
+            self.panels.measure.show(found)
+            self.panels.material.select(found.material)
+        except Error as error:
+            self.say(str(error), True)
+
+    # --- end -----------------------------------------------------------------------------------------------------
+
+    def close(self) -> None:
+        """End all work of the page."""
+        self.refiner.close()
+        if self._second is not None:
+            self._second.close()

@@ -1,0 +1,253 @@
+"""The viewer in a real browser: Chromium without a window, driven as a person would; judged by pixels.
+
+It is found as `chromium` on the path (Debian: apt-get install chromium); where there is none, these tests are skipped.
+"""
+
+import io
+import shutil
+import time
+import tomllib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+import PIL.Image
+import pytest
+
+from illuminant.viewer import view
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+SIZE = {"width": 700, "height": 480}
+CANVAS = (slice(160, 460), slice(20, 240))
+"""The part of a screenshot that no control covers."""
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """Chromium."""
+    found = next((path for name in BROWSERS if (path := shutil.which(name))), None)
+    if found is None:
+        pytest.skip("no browser: there is no chromium on the path")
+    from playwright.sync_api import sync_playwright
+
+    software = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+    with sync_playwright() as playwright:
+        opened = playwright.chromium.launch(executable_path=found, args=["--no-sandbox", *software])
+        yield opened
+        opened.close()
+
+
+def until(holds: Callable[[], Any], seconds: float = 60.0) -> Any:
+    """Wait until something holds, and return it."""
+    end = time.monotonic() + seconds
+    while not (found := holds()):
+        assert time.monotonic() < end, "it did not come"
+        time.sleep(0.1)
+    return found
+
+
+class Page:
+    """A page of a viewer, with the session behind it."""
+
+    def __init__(self, browser: Any, viewer: Any) -> None:
+        known = set(viewer.sessions)
+        self.viewer = viewer
+        self.page = browser.new_page(viewport=SIZE)
+        self.page.goto(viewer.url)
+        until(lambda: set(viewer.sessions) - known or self.page.wait_for_timeout(50))
+        self.session = viewer.sessions[(set(viewer.sessions) - known).pop()]
+        self.full()
+
+    def full(self, samples: int = 1) -> None:
+        """Wait for a whole picture of what was asked for last."""
+        refiner = self.session.refiner
+
+        def there() -> bool:
+            self.page.wait_for_timeout(50)  # lets the browser work
+            frame = self.session.frame
+            return (
+                frame is not None
+                and frame.request.number == refiner._number
+                and not frame.preview
+                and frame.samples >= samples
+            )
+
+        until(there)
+        self.page.wait_for_timeout(300)
+
+    def pixels(self) -> np.ndarray:
+        """What the page shows, where no control covers it, as codes."""
+        with PIL.Image.open(io.BytesIO(self.page.screenshot())) as shot:
+            return np.asarray(shot.convert("RGB"))[CANVAS].astype(float)
+
+    def choose(self, label: str, value: str) -> None:
+        """Choose from a list."""
+        row = self.page.get_by_label(label, exact=True).first
+        row.click()
+        self.page.get_by_role("option", name=value, exact=True).click()
+
+
+@contextmanager
+def opened(browser: Any, scene: Any, **options: Any) -> Iterator[Page]:
+    """A viewer with one page."""
+    with view(scene, port=0, **options) as viewer:
+        page = Page(browser, viewer)
+        yield page
+        page.page.close()
+        until(lambda: not viewer.sessions)
+
+
+@pytest.fixture(scope="module")
+def page(browser, repository, tmp_path_factory) -> Iterator[Page]:
+    folder = tmp_path_factory.mktemp("kept")
+    with opened(browser, repository / "scenes" / "cornell.toml", folder=folder) as found:
+        yield found
+
+
+def test_the_page_shows_the_scene_as_it_is_rendered(page):
+    page.full(4)
+    seen = page.pixels()
+    frame = page.session.frame
+    codes = page.session.composed(frame, page.session.state)
+    rows, columns = (np.arange(n) for n in (SIZE["height"], SIZE["width"]))
+    scaled = codes[rows * codes.shape[0] // len(rows)][:, columns * codes.shape[1] // len(columns)]
+
+    # Over blocks of 10 by 10 pixels: the browser may shift a picture by a part of one.
+    def blocks(codes: np.ndarray) -> np.ndarray:
+        return codes.reshape(30, 10, 22, 10, 3).astype(float).mean(axis=(1, 3))
+
+    assert np.abs(blocks(seen) - blocks(scaled[CANVAS])).mean() < 3.0
+    assert seen.mean() > 20.0
+
+
+def test_orbiting_shows_another_view_of_the_same_scene(page):
+    before, camera = page.pixels(), page.session.camera()
+    page.page.mouse.move(150, 300)
+    page.page.mouse.down()
+    page.page.mouse.move(210, 320, steps=6)
+    page.page.mouse.up()
+    until(lambda: page.page.wait_for_timeout(100) or page.session.camera()["eye"] != camera["eye"])
+    page.full()
+    after = page.pixels()
+    assert np.abs(after - before).mean() > 5.0
+    page.session.preset("scene")
+    until(lambda: page.page.wait_for_timeout(100) or np.allclose(page.session.camera()["eye"], camera["eye"]))
+    page.full(4)
+    assert np.abs(page.pixels() - before).mean() < np.abs(after - before).mean() / 2
+
+
+def test_another_technique_is_another_picture(page):
+    page.full(4)
+    before = page.pixels()
+    page.choose("technique", "gouraud")
+    until(lambda: page.page.wait_for_timeout(100) or page.session.state.technique == "gouraud")
+    page.full()
+    assert np.abs(page.pixels() - before).mean() > 3.0
+    page.choose("technique", "path")
+    page.full(4)
+
+
+def test_a_lamp_of_another_spectrum_colours_the_room(page):
+    page.full(4)
+    before = page.pixels().mean(axis=(0, 1))
+    page.page.get_by_text("Lamps", exact=True).click()
+    page.choose("spectrum", "FL7")
+    page.full(4)
+    after = page.pixels().mean(axis=(0, 1))
+    assert after[2] / after[0] > 1.3 * before[2] / before[0], "daylight is bluer than an incandescent lamp"
+
+
+def test_a_click_reads_spectrum_and_material(page):
+    page.page.mouse.click(180, 260)
+    until(lambda: page.page.wait_for_timeout(100) or page.session.last_reading)
+    found = page.session.last_reading
+    assert found.material
+    assert len(found.wavelengths_nm) == 401
+    assert found.luminance > 0
+    frame = page.session.frame
+    row, column = (int(f * n) for f, n in zip((260 / 480, 180 / 700), frame.image.xyz.shape[:2], strict=True))
+    near = frame.image.xyz[row - 2 : row + 3, column - 2 : column + 3, 1].mean()
+    assert found.luminance == pytest.approx(near, rel=0.25)
+    assert page.page.get_by_text("luminance").first.is_visible()
+
+
+def test_what_is_kept_is_valid_and_stays_in_the_folder(page):
+    from illuminant.image import Image
+    from illuminant.scene import load
+    from illuminant.viewer import keeping
+
+    session = page.session
+    before = set(session.folder.iterdir())
+    png, exr = keeping.image(session)
+    scene = keeping.scene(session)[0]
+    csv = keeping.spectrum(session)[0]
+    assert {png, exr, scene, csv} == set(session.folder.iterdir()) - before
+    assert Image.open(exr).xyz.shape == session.frame.image.xyz.shape
+    kept, shown = load(scene).description, session.state.scene.description
+    assert {key: one for key, one in kept.items() if key != "camera"} == {
+        key: one for key, one in shown.items() if key != "camera"
+    }
+    camera = session.camera()
+    for key in ("eye", "field_of_view_deg", "size"):
+        assert np.allclose(kept["camera"][key], camera[key], atol=1e-6), key
+    assert tomllib.loads(scene.read_text())["materials"]["lamp"]["spectrum"] == "FL7"
+    assert len(csv.read_text().splitlines()) == 402
+    again = keeping.image(session)[0]
+    assert again != png, "nothing is overwritten"
+
+
+def test_the_command_line_makes_the_view_again(page):
+    import shlex
+
+    from illuminant.cli import run
+    from illuminant.viewer import keeping
+
+    program, *words = shlex.split(keeping.command(page.session))
+    assert program == "illuminant"
+    picture = page.session.folder / "again.png"
+    words[words.index("-o") + 1] = str(picture)
+    words[words.index("--samples") + 1] = "4"
+    assert run(words) == 0
+    with PIL.Image.open(picture) as image:
+        assert list(image.size) == page.session.camera()["size"]
+
+
+def test_two_pages_do_not_disturb_each_other(browser, page):
+    from dataclasses import replace
+
+    second = Page(browser, page.viewer)
+    number = page.session.refiner._number
+    second.session.look_at(replace(second.session.state, stops=2.0))
+    second.session.change(replace(second.session.state, technique="constant", illumination="bouknight"))
+    second.full()
+    assert page.session.state.technique == "path"
+    assert page.session.refiner._number == number
+    assert np.abs(second.pixels() - page.pixels()).mean() > 5.0
+    thread = second.session.refiner._thread
+    second.page.close()
+    until(lambda: len(page.viewer.sessions) == 1)
+    until(lambda: not thread.is_alive())
+
+
+def test_a_broken_scene_shows_its_mistakes(browser, repository, tmp_path):
+    broken = tmp_path / "broken.toml"
+    broken.write_text((repository / "scenes" / "cornell.toml").read_text().replace("kind =", "knd =", 1))
+    with view(broken, port=0) as viewer:
+        tab = browser.new_page(viewport=SIZE)
+        tab.goto(viewer.url)
+        tab.get_by_text("The scene cannot be shown").wait_for(timeout=60_000)
+        assert "materials.white" in tab.content()
+        tab.close()
+
+
+def test_radiosity_is_relit_at_once(browser, repository):
+    with opened(browser, repository / "scenes" / "cornell.toml", technique="radiosity") as page:
+        session = page.session
+        before = page.pixels()
+        kind, name, table = "materials", "lamp", session.state.tables["materials"]["lamp"]
+        dimmed = session.state.with_tables(**{kind: {name: table | {"spectrum": "FL7"}}})
+        session.change(dimmed)
+        page.full()
+        assert session.refiner.relit_seconds is not None
+        assert np.abs(page.pixels() - before).mean() > 3.0
