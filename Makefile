@@ -66,7 +66,7 @@ bench: .venv/.core ## Measure beside peers and beside raw Embree; prints tables 
 	  echo "illuminant: benches/$$script.py"; $(BIN)/python benches/$$script.py; done
 
 site: .venv/.core build/atlas/index.md ## Build the documentation site in build/site/html (docs, atlas, references)
-	@$(BIN)/python tools/site/build.py build/site --atlas build/atlas
+	@$(BIN)/python tools/site/build.py build/site --atlas build/atlas --notebooks
 
 build/atlas/index.md: $(shell find python/illuminant/atlas -name '*.py') .venv/.core
 	@echo "illuminant: drawing the atlas (up to a quarter of an hour)"

@@ -1,8 +1,9 @@
 """Build the documentation site: `python tools/site/build.py build/site` writes it into `build/site/html`.
 
 The pages come together in `build/site/pages`: the manual (`docs`), what it links to, the atlas where it has been drawn
-(`--atlas`), and the references of the commands and of the Python package, written from the code. Zensical makes the
-site of them, and any warning of it ends the build; then every link of the result is followed (`inspection.py`).
+(`--atlas`), the notebooks, which are executed (`--notebooks`), and the references of the commands and of the Python
+package, written from the code. Zensical makes the site of them, and any warning of it ends the build; then every link
+of the result is followed (`inspection.py`).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from pathlib import Path
 
 import commands
 import navigation
+import notebooks
 from inspection import mistakes
 from links import DeadLinkError
 from python_reference import Reference
@@ -22,11 +24,15 @@ from staging import Stage
 REPOSITORY = Path(__file__).resolve().parent.parent.parent
 
 
-def build(folder: Path, atlas: Path | None) -> Path:
+def build(folder: Path, atlas: Path | None = None, with_notebooks: bool = False) -> Path:
     """Build the site in a folder, and return the folder of its HTML."""
     pages, html = folder / "pages", folder / "html"
     folder.mkdir(parents=True, exist_ok=True)
-    stage = Stage(REPOSITORY, pages, atlas)
+    made = {} if atlas is None else {"docs/atlas": atlas}
+    if with_notebooks:
+        made["notebooks"] = folder / "notebooks"
+        notebooks.pages(REPOSITORY / "notebooks", made["notebooks"])
+    stage = Stage(REPOSITORY, pages, made)
     stage.make("commands.md", commands.page())
     reference = Reference(REPOSITORY / "python")
     for path, text in reference.pages():
@@ -52,9 +58,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Build the documentation site.")
     parser.add_argument("folder", type=Path, help="folder for the site and what it is made of")
     parser.add_argument("--atlas", type=Path, help="folder that `illuminant atlas --all` has drawn")
+    parser.add_argument("--notebooks", action="store_true", help="execute the notebooks and show them")
     options = parser.parse_args()
     try:
-        html = build(options.folder.resolve(), options.atlas.resolve() if options.atlas else None)
+        atlas = options.atlas.resolve() if options.atlas else None
+        html = build(options.folder.resolve(), atlas, options.notebooks)
     except DeadLinkError as error:
         raise SystemExit(f"illuminant: {error}") from error
     print(f"illuminant: {len(list(html.rglob('*.html')))} pages, no dead link, nothing from outside")

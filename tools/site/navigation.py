@@ -49,7 +49,6 @@ TOPICS = (
     "test-patterns.md",
     "calibration.md",
     "develop.md",
-    "notebooks.md",
 )
 REFERENCE = ("scene-file.md", "command-line.md", "commands.md")
 PROOF = ("validation.md", "benchmarks.md", "benches.md")
@@ -92,6 +91,7 @@ def navigation(folder: Path, reference: Reference) -> list[Item]:
         ("Start", ["index.md", *(page for page in START if page in there)]),
         ("The way of light", way),
         ("Topics", topics),
+        ("Notebooks", sorted(page for page in there if page.startswith("notebooks/"))),
         ("Reference", [*(page for page in REFERENCE if page in there), _python(reference, "illuminant")]),
         ("Validation", [page for page in PROOF if page in there]),
         ("Atlas", atlas),

@@ -1,12 +1,13 @@
 """The folder that the site is built from: the manual, what it links to, and the pages made out of the code.
 
 Every page has two paths: where it lies in the repository, which its links start from, and where it lies on the site.
-The atlas counts as the folder `docs/atlas`, wherever it was drawn.
+The atlas counts as the folder `docs/atlas`, and the executed notebooks as `notebooks`, wherever they were made.
 """
 
 from __future__ import annotations
 
 import shutil
+from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
 from dialect import for_the_site
@@ -22,6 +23,9 @@ PAGES_OUTSIDE = {
 }
 """Pages of the repository outside `docs`, and their names on the site."""
 
+MADE = {"docs/atlas": "atlas", "notebooks": "notebooks"}
+"""Folders whose pages are made before the site is, and their names on the site."""
+
 FILES = "files"
 """Folder of the site for files that pages link to."""
 
@@ -32,13 +36,14 @@ class Stage:
     Attributes:
         repository: root of the checkout.
         folder: the folder that is filled.
+        made: where folders of `MADE` lie on the disk.
         pages: path on the site of each page, by its path in the repository.
     """
 
-    def __init__(self, repository: Path, folder: Path, atlas: Path | None = None) -> None:
+    def __init__(self, repository: Path, folder: Path, made: Mapping[str, Path]) -> None:
         self.repository = repository
         self.folder = folder
-        self.atlas = atlas
+        self.made = dict(made)
         self._made: set[str] = set()
         shutil.rmtree(folder, ignore_errors=True)
         docs = repository / "docs"
@@ -47,10 +52,10 @@ class Stage:
             name = page.relative_to(docs).as_posix()
             if not name.startswith("site/"):
                 self.pages[f"docs/{name}"] = name
-        if atlas is not None:
-            for page in sorted(atlas.rglob("*.md")):
-                name = page.relative_to(atlas).as_posix()
-                self.pages[f"docs/atlas/{name}"] = f"atlas/{name}"
+        for name, place in self.made.items():
+            for page in sorted(place.rglob("*.md")):
+                below = page.relative_to(place).as_posix()
+                self.pages[f"{name}/{below}"] = f"{MADE[name]}/{below}"
 
     def fill(self) -> None:
         """Put every page of the repository here, and every file that one of them links to."""
@@ -85,7 +90,11 @@ class Stage:
         file = self._file(origin)
         if origin.startswith("..") or not file.is_file():
             raise FileNotFoundError(origin)
-        staged = origin.removeprefix("docs/") if origin.startswith("docs/") else f"{FILES}/{origin}"
+        made = next((name for name in self.made if origin.startswith(f"{name}/")), None)
+        if made is not None and file.is_relative_to(self.made[made]):
+            staged = MADE[made] + origin.removeprefix(made)
+        else:
+            staged = origin.removeprefix("docs/") if origin.startswith("docs/") else f"{FILES}/{origin}"
         if not PurePosixPath(staged).suffix:
             staged += ".txt"  # a browser shows a licence only when it knows that it is text
         path = self.folder / staged
@@ -95,6 +104,7 @@ class Stage:
 
     def _file(self, origin: str) -> Path:
         """Where a path of the repository lies on the disk."""
-        if self.atlas is not None and origin.startswith("docs/atlas/"):
-            return self.atlas / origin.removeprefix("docs/atlas/")
+        for name, place in self.made.items():
+            if origin.startswith(f"{name}/") and (place / origin.removeprefix(f"{name}/")).exists():
+                return place / origin.removeprefix(f"{name}/")
         return self.repository / origin
