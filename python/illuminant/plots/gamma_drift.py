@@ -59,10 +59,12 @@ def drift(found: Drift, *, labels: bool = True) -> Figure:
             home = right_xyz[patch, :2] / right_xyz[patch].sum()
             axes.plot(*home, marker="o", markersize=4.0, color="black", zorder=5)
             if labels and np.linalg.norm(trace[0] - trace[-1]) > 0.12:
+                # Above the middle of a trace that ends near the rim, beside the end of an upright one.
+                level = abs(trace[0, 0] - trace[-1, 0]) > abs(trace[0, 1] - trace[-1, 1])
                 axes.annotate(
                     name,
-                    trace[0],
-                    xytext=(4, 3),
+                    trace.mean(axis=0) if level else trace[0],
+                    xytext=(0, 6) if level else (4, 3),
                     textcoords="offset points",
                     fontsize=7.0,
                     zorder=6,

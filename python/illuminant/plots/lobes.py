@@ -40,6 +40,15 @@ BELOW = 0.32
 
 LEGEND = 0.35
 
+GGX = TODAY | {
+    "linestyle": (0, (0.1, 4.0)),
+    "linewidth": 1.5,
+    "dash_capstyle": "round",
+    "alpha": 1.0,
+    "zorder": 3,
+}
+"""Dots on top: by itself GGX is the function of Trowbridge and Reitz, and either line would hide the other."""
+
 
 def distribution(
     name: str, beta_deg: float, theta_deg: float, view_deg: NDArray[np.float64]
@@ -125,7 +134,7 @@ def distributions(
                     axes.plot(
                         np.radians(view),
                         distribution(name, beta, theta, view),
-                        **({**TODAY, "zorder": 1.5} if name == "ggx" else line_look(i)),
+                        **(GGX if name == "ggx" else line_look(i)),
                     )[0]
                     for i, name in enumerate(names)
                 ]
@@ -167,7 +176,7 @@ def coefficients(today: bool = False) -> Figure:
         for number, (axes, at, _, label, values) in enumerate(rows):
             axes.plot(at, values, label=label, **line_look(number))
         if today:
-            right.plot(beta, optics.ggx_alpha(np.radians(beta)), label="today: α of GGX", **TODAY, zorder=1.5)
+            right.plot(beta, optics.ggx_alpha(np.radians(beta)), label="today: α of GGX", **GGX)
         left.set_yscale("log")
         left.set_ylim(0.05, 3000.0)
         right.set_ylim(0.0, 5.0)

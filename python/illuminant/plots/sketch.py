@@ -315,7 +315,8 @@ class Sketch:
                     linewidth=0.6,
                     zorder=4 if colour == "#9a9a9a" else 1.5,
                 )
-        rim = circle([0, 0, 0], self.view.towards_eye, radius)
+        # Finely, for the rim ends between two points where the foot begins.
+        rim = circle([0, 0, 0], self.view.towards_eye, radius, 961)
         upper = np.where((rim[:, 2] >= -1e-9)[:, None], rim, np.nan)
         self.axes.plot(*self.view.paper(upper).T, color=GREY, linewidth=0.9, zorder=4)
 

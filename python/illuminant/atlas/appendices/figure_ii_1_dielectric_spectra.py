@@ -13,7 +13,7 @@ def draw(quick: bool) -> Sheet:
     import numpy as np
 
     from illuminant import optics, spectra
-    from illuminant.plots.style import line_look, new_figure
+    from illuminant.plots.style import INK, PRINTED, line_look, new_figure
 
     nm = np.arange(RANGE_NM[0], RANGE_NM[1] + 1)
     curves = {name: np.asarray(optics.normal_reflectance(spectra.load(f"{name}.n").at(nm))) for name in MEDIA}
@@ -21,8 +21,9 @@ def draw(quick: bool) -> Sheet:
     within = (nm >= book.range_nm[0]) & (nm <= book.range_nm[1])
     curves["crown glass of the book"] = np.where(within, book.at(nm), np.nan)
     figure, axes = new_figure((7.4, 4.4))
-    for i, (name, curve) in enumerate(curves.items()):
-        axes.plot(nm, curve, **line_look(i), label=name)
+    for i, name in enumerate(("diamond", "BK7", "crown glass of the book", "fused silica", "water")):
+        look = PRINTED | {"color": INK} if name.endswith("book") else line_look(i)
+        axes.plot(nm, curves[name], **look, label=name)
     axes.set(xlabel="wavelength, nm", ylabel="reflectance at normal incidence", xlim=RANGE_NM, ylim=(0, 0.2))
     axes.grid(True)
     axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.55))

@@ -20,7 +20,7 @@ def draw(quick: bool) -> Sheet:
 
     beta = np.linspace(*RANGE_RAD, 60)
     specular, diffuse = np.array([appearance.energies(float(b)) for b in beta]).T
-    few = np.linspace(0.1, 0.9, 3 if quick else 6)
+    few = np.linspace(0.1, 1.05, 3 if quick else 6)
     ours = []
     for b in few:
         slope = float(optics.lobe_coefficient("cook", float(b))) ** 0.5
@@ -74,7 +74,8 @@ PLATE = Plate(
     "takes for the diffuse part. A guide for the multipliers $C_{Ks}$ and $C_{Kd}$, which add to 1.",
     claim="Sharp highlights take all energy, and as they widen their share falls, to a half where β is about 1.",
     today="The missing share is light that hits a second facet. It is followed there (`general`), so a perfect mirror "
-    "however rough gives back all, and nothing has to be called diffuse.",
+    "however rough gives back all, and nothing has to be called diffuse. The points end where the slope is near 1, the "
+    "roughest there is.",
     draw=draw,
     commands=('illuminant audit "copper, circular mill"',),
 )

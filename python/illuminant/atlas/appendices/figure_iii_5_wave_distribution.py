@@ -59,7 +59,7 @@ def draw(quick: bool) -> Sheet:
         axes.grid(True)
     right.axhline(1.0, color=GREY, linewidth=0.8)
     left.set(title="mirror direction, α = 0", yscale="log", ylabel="D, 1/sr")
-    right.set(title="over the series", ylim=(0.5, 1.8), ylabel="D over D of the series")
+    right.set(title="relative to the series", ylim=(0.5, 1.8), ylabel="D over D of the series")
     left.legend(ncols=2, loc="lower right")
     looks: tuple[dict[str, Any], ...] = ({}, {"linestyle": ":"}, PRINTED)
     entries = [Line2D([], [], color=line_look(i)["color"]) for i in range(len(STEEPNESS))]

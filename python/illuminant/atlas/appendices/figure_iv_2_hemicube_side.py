@@ -35,11 +35,9 @@ def draw(quick: bool) -> Sheet:
             Check("error at 32 cells along an edge over that at 64", error[1] / error[2], "", 3.5, 4.5),
             Check("share of the side over its exact form factor", share / exact, "", 0.999, 1.001),
             Check(
-                "drawn cell over eq IV.7 divided by π",
-                float(cells.delta[number]) / printed,
-                "",
-                1 - 1e-12,
-                1 + 1e-12,
+                "drawn cell over eq IV.7 divided by π, less 1",
+                abs(float(cells.delta[number]) / printed - 1.0),
+                at_most=1e-12,
             ),
         ),
     )

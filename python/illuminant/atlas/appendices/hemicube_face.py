@@ -67,23 +67,26 @@ def draw_cell(top: bool, chosen: tuple[float, float]) -> tuple[Figure, NDArray[n
     for axis, name in ((x, "x"), (y, "y"), (z, "z")):
         sketch.arrow([0, 0, 0], 1.45 * axis, name, GREY, linewidth=0.8, zorder=4)
     sketch.line([[0, 0, 0], middle], color=red, linewidth=1.4, zorder=6)
-    sketch.label(0.55 * middle, "$r$", (8, -6), color=red)
+    sketch.label((0.3 if top else 0.55) * middle, "$r$", (10, -3) if top else (2, -13), color=red)
     sketch.dot([0, 0, 0])
-    sketch.angle([0, 0, 0], z, middle, 0.42, "$\\theta_n$", "#222222", 10.0)
+    sketch.angle([0, 0, 0], z, middle, 0.42, "" if top else "$\\theta_n$", "#222222", 10.0)
     outward = z if top else x
     sketch.arrow(middle, middle + 0.4 * outward, zorder=7, linewidth=1.0)
     sketch.line([middle, middle * 1.32], color=red, linewidth=0.7, linestyle=(0, (3, 2)), zorder=6)
-    sketch.angle(middle, outward, middle, 0.26, "$\\theta_m$", "#222222", 11.0)
+    sketch.angle(middle, outward, middle, 0.26, "" if top else "$\\theta_m$", "#222222", 11.0)
     if top:
+        # Both arcs are narrow: their labels stand beside them.
+        sketch.label([0.0, 0.0, 0.36], "$\\theta_n$", (-11, 0))
+        sketch.label(middle + 0.26 * z, "$\\theta_m$", (15, -4))
         foot = np.array([middle[0], 0.0, 1.0])
         sketch.line([z, foot, middle], color="#222222", linewidth=0.8, linestyle=(0, (3, 2)), zorder=6)
-        sketch.label((z + foot) / 2, "$x_q$", (-6, -8), fontsize=9)
-        sketch.label((foot + middle) / 2, "$y_q$", (3, -9), fontsize=9)
+        sketch.label((z + foot) / 2, "$x_q$", (6, -8), fontsize=9)
+        sketch.label(0.3 * foot + 0.7 * middle, "$y_q$", (6, 9), fontsize=9)
     else:
         foot = np.array([1.0, middle[1], 0.0])
         sketch.line([x, foot, middle], color="#222222", linewidth=0.8, linestyle=(0, (3, 2)), zorder=6)
         sketch.label((x + foot) / 2, "$y_q$", (3, -9), fontsize=9)
         sketch.label((foot + middle) / 2, "$z_q$", (10, 0), fontsize=9)
-    sketch.label(middle, "$\\Delta A_q$", (26, -10), color=red)
+    sketch.label(middle, "$\\Delta A_q$", (26, -10) if top else (4, 19), color=red)
     sketch.frame()
     return figure, middle

@@ -66,10 +66,12 @@ def draw(quick: bool) -> Sheet:
             "C_Kd as printed": printed,
         },
         checks=(
-            Check("falls of C_Kd along rows 1 and 2, as printed", falls[0], at_least=1, at_most=1),
+            Check(
+                "steps in which C_Kd falls along rows 1 and 2, as printed", falls[0], at_least=1, at_most=1
+            ),
             Check("the same, corrected", falls[1], at_least=0, at_most=0),
             Check(
-                "rises of C_Ks along rows 1 and 2, and 3 and 4",
+                "steps in which C_Ks rises along rows 1 and 2, and 3 and 4",
                 int(sum(np.sum(np.diff(specular[rows]) > 0) for rows in (alone, mapped))),
                 at_least=0,
                 at_most=0,

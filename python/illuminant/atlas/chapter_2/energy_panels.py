@@ -27,6 +27,9 @@ TITLES = tuple(f"m = {m:.2f}" for m in SLOPES)
 IMPOSSIBLE = "#E69F00"
 """The colour of a share below 0 or above 1."""
 
+BAND: dict[str, Any] = {"color": "#000000", "linewidth": 4.8, "alpha": 0.28, "solid_capstyle": "butt"}
+"""What is done today, broad and pale: it lies behind the sections and shows where they agree with it."""
+
 TOLERANCE = 0.005
 """What is left of that to the errors of integration and of the series as the book cuts it."""
 
@@ -112,7 +115,7 @@ def panels(
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-    from illuminant.plots.style import DPI, GREY, PRINTED, TODAY, line_look
+    from illuminant.plots.style import DPI, GREY, PRINTED, line_look
 
     figure = Figure(figsize=(9.0, 5.2), dpi=DPI, layout="constrained", facecolor="white")
     grid: Any = figure.subplots(2, len(columns), sharex=True, sharey="row", squeeze=False)
@@ -123,7 +126,7 @@ def panels(
         below.axhline(1.0, color=GREY, linewidth=0.6)
         below.axhline(0.0, color=GREY, linewidth=0.6)
         if column.today is not None:
-            below.plot(*column.today, **TODAY)
+            below.plot(*column.today, **BAND)
         for i, values in enumerate(column.cut):
             below.plot(column.at_deg, values, **line_look(i))
             if column.printed is not None:
@@ -140,7 +143,7 @@ def panels(
         entries.append(Line2D([], [], color=GREY, **PRINTED))
         labels.append("D as in III.4")
     if any(column.today is not None for column in columns):
-        entries.append(Line2D([], [], **TODAY))
+        entries.append(Line2D([], [], **BAND))
         labels.append(f"today: general, σ = {HEIGHTS_NM[-1]:g} nm")
     figure.legend(entries, labels, loc="outside lower center", ncols=len(labels))
     return figure

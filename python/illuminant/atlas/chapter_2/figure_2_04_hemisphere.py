@@ -66,7 +66,7 @@ def draw(quick: bool) -> Sheet:
     sketch.dot([0, 0, 0])
     sketch.arrow([0, 0, 0], [0, 0, 1.28], "$\\mathbf{N}$")
     sketch.label(middle, "source", zorder=10)
-    sketch.label(onto_sphere(outline)[1], f"ω = {exact:.3f} sr", (82, -4), color=line_look(1)["color"])
+    sketch.label(onto_sphere(outline)[1], f"ω = {exact:.3f} sr", (108, -4), color=line_look(1)["color"])
     sketch.label([0.53, -0.85, 0.0], "the whole hemisphere: 2π sr", (0, -12), color=GREY, fontsize=8.5)
     sketch.frame()
 
@@ -129,7 +129,7 @@ PLATE = Plate(
     "polygon, the hemisphere as a whole has $2\\pi$, and the area over the squared distance (eq 2.4) is wrong by less "
     "than the squared ratio of half its diagonal to its distance.",
     today="Rectangles and triangles that shine are sampled by their spherical polygons (Arvo 1995, Ureña 2013), so "
-    "every direction drawn meets the lamp, and none is drawn twice as dense as another.",
+    "every direction drawn meets the lamp, and they are equally dense over all of it.",
     draw=draw,
     commands=("illuminant atlas 2.6", "illuminant render scenes/cornell.toml --samples 4 -o cornell.png"),
 )

@@ -12,17 +12,18 @@ RATIOS = (1e-6, 1.0)
 
 
 def draw(quick: bool) -> Sheet:
-    """The error against r/d; dashed in grey, the leading term ¾ (r/d)²."""
+    """The error against r/d; dotted in grey, the leading term ¾ (r/d)²."""
     import numpy as np
 
     from illuminant import optics
-    from illuminant.plots.style import GREY, line_look, new_figure
+    from illuminant.plots.style import GREY, TODAY, line_look, new_figure
 
     ratio = np.linspace(*RATIOS, 101)
     error = np.asarray(optics.disc_solid_angle_error(ratio))
     figure, axes = new_figure((6.4, 4.0))
     axes.plot(ratio, 100 * error, **line_look(0), label="area over distance squared (eq 2.4)")
     axes.plot(ratio, 75 * ratio**2, color=GREY, linestyle=":", label="leading term ¾ (r/d)²")
+    axes.plot(RATIOS, (0.0, 0.0), **TODAY, clip_on=False, label="today: the solid angle itself")
     axes.set(
         xlabel="radius over distance, r/d",
         ylabel="relative error of the solid angle, %",

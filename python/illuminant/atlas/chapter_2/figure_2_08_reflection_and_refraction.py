@@ -50,7 +50,7 @@ def draw(quick: bool) -> Sheet:
         sketch.arrow([0, 0], vector, text, colour, 10.0)
     sketch.line([[0.0, 0.0], [0.0, -1.02]], linestyle=(0, (3, 2)))
     sketch.angle([0, 0], normal, light, 0.42, f"$\\theta_i$ = {between(normal, light):.0f}°", out=17.0)
-    sketch.angle([0, 0], normal, mirrored, 0.36, f"$\\theta_r$ = {between(normal, mirrored):.0f}°", out=17.0)
+    sketch.angle([0, 0], normal, mirrored, 0.42, f"$\\theta_r$ = {between(normal, mirrored):.0f}°", out=17.0)
     sketch.angle([0, 0], -normal, through, 0.5)
     sketch.label([0.0, -0.62], f"$\\theta_t$ = {between(-normal, through):.1f}°", (-32, 0))
     sketch.frame()

@@ -82,7 +82,7 @@ def draw(quick: bool) -> Sheet:
                 at_most=0.25,
             ),
             Check(
-                "largest of: Sancer's asymmetry, its departure from Smith's Gaussian masking",
+                "the larger of Sancer's asymmetry and its departure from Smith's Gaussian masking",
                 max(mirrored, *(float(np.abs(a - b).max()) for a, b in zip(sancer, smith, strict=True))),
                 at_most=1e-6,
             ),

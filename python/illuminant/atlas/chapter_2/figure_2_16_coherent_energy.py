@@ -45,7 +45,8 @@ PLATE = Plate(
     title="Coherent reflection of a rough surface",
     shows="The ratio of coherently reflected to incident energy with $F = 1$ at 580 nm, over the height σ (0 to 200 "
     "nm) and the angle of incidence: $r_\\sigma = e^{-g}$ with $g = (4\\pi\\sigma\\cos\\theta/\\lambda)^2$ (eqs 2.36 "
-    "and 2.37), then $r_\\sigma G$ with Sancer's $G$ (eq 2.22) for slopes $m$ of 0.02, 0.10, 0.50 and 1.00.",
+    "and 2.37), then $r_\\sigma G$ with Sancer's $G$ (eq 2.22) for slopes $m$ of 0.02, 0.10, 0.50 and 1.00. "
+    "Where the book has surfaces, here are maps and sections.",
     claim="At normal incidence a height of 150 nm (6 microinches) leaves no mirror image, at grazing every surface "
     "is a mirror, and geometric attenuation takes that mirror away from steep ones.",
     today="`general` keeps $r_\\sigma$ without $G$, at every slope: light that one facet hides has met another and "

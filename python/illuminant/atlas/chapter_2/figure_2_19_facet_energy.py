@@ -42,7 +42,8 @@ PLATE = Plate(
     title="Incoherent reflection by the distribution of facets alone",
     shows="The share that is scattered, $\\frac{1}{\\cos\\theta_i}\\int D\\,d\\omega$, with $F = G = 1$ at 580 nm, "
     "over the height σ (0 to 200 nm) and the angle of incidence, for slopes $m$ of 0.02, 0.10, 0.50 and 1.00; $D$ is "
-    "that of eq 2.42. Orange is where the share is above 1; the sections end at 2.5.",
+    "that of eq 2.42. Orange is where the share is above 1; the sections end at 2.5. Where the book has "
+    "surfaces, here are maps and sections.",
     claim="A gentle relief scatters at normal incidence just what is not coherent, $1 - r_\\sigma$; a steep one "
     "scatters too little there, and near grazing many times what arrives.",
     printed="Of eq 2.42 the book prints $\\exp(+\\tan^2\\alpha/m^2)$ for rough surfaces and a phase without its "

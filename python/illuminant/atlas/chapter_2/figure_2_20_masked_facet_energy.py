@@ -42,7 +42,7 @@ PLATE = Plate(
     title="Incoherent reflection with geometric attenuation",
     shows="The share that is scattered, $\\frac{1}{\\cos\\theta_i}\\int D G\\,d\\omega$, with $F = 1$ at 580 nm, "
     "over the height σ (0 to 200 nm) and the angle of incidence, for slopes $m$ of 0.02, 0.10, 0.50 and 1.00; $D$ is "
-    "that of eq 2.42 and $G$ Sancer's of eq 2.22.",
+    "that of eq 2.42 and $G$ Sancer's of eq 2.22. Where the book has surfaces, here are maps and sections.",
     claim="Geometric attenuation ends the gain of figure 2.19, so that facets alone never scatter more than arrives, "
     "but of a steep relief half of the light is missing.",
     printed="The maps compute $D$ as the book's program does (appendix III.4); the sections have its series whole, "

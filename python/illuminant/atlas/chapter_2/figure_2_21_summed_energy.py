@@ -46,13 +46,13 @@ PLATE = Plate(
     shows="The coherent share $r_\\sigma G$ plus the incoherent one, $\\frac{1}{\\cos\\theta_i}\\int D "
     "G\\,d\\omega$, with $F = 1$ at 580 nm, over the height σ (0 to 200 nm) and the angle of incidence, for slopes "
     "$m$ of 0.02, 0.10, 0.50 and 1.00 (the surfaces of figures 2.16 and 2.20, summed). Orange is where the share is "
-    "above 1.",
+    "above 1. Where the book has surfaces, here are maps and sections.",
     claim="The sum is 1 for a gentle relief only: at $m = 1$ and 80 nm more than half of the light is lost at normal "
     "incidence, and at $m = 0.5$ more than a tenth too much leaves towards grazing.",
     printed="The caption of the second surface says m = .010; it is 0.10, as in figure 2.22. The maps compute $D$ as "
     "the book does (appendix III.4); the sections have its series whole, and dashed as the book cuts it.",
     today="`general` follows light that meets several facets, lets coherent and scattered light share one amplitude, "
-    "and balances the rest: its sum is 1 to within 0.003 at every height, slope and angle.",
+    "and balances the rest: its sum is 1 at every angle of the sections, to within 0.005.",
     draw=draw,
     commands=("illuminant audit 'copper, satin'",),
 )

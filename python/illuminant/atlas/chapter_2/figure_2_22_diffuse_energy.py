@@ -45,7 +45,8 @@ PLATE = Plate(
     title="The diffuse coefficient that equilibrium asks for",
     shows="The diffuse coefficient $K_d = 1 - r_\\sigma G - \\frac{1}{\\cos\\theta_i}\\int D G\\,d\\omega$ with "
     "which a surface of $F = 1$ returns all light at 580 nm (eq 2.50), over the height σ (0 to 200 nm) and the angle "
-    "of incidence, for slopes $m$ of 0.02, 0.10, 0.50 and 1.00. Orange is where it is negative.",
+    "of incidence, for slopes $m$ of 0.02, 0.10, 0.50 and 1.00. Orange is where it is negative. Where "
+    "the book has surfaces, here are maps and sections.",
     claim="No constant diffuse coefficient restores equilibrium: of one and the same surface it ranges over more "
     "than a quarter with the angle, and a negative one is needed where the sum of figure 2.21 is above 1.",
     printed="Eq 2.50 carries $n_v^2/n_t^2$ in the energy that is transmitted; a sum of energies must not. With $F = "

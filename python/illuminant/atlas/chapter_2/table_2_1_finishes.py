@@ -35,10 +35,18 @@ def draw(quick: bool) -> Sheet:
     for i, (values, label) in enumerate(((along, "with the grain"), (across, "across the grain"))):
         axes.barh(rows - 0.2 + 0.4 * i, values, height=0.38, color=line_look(i)["color"], label=label)
     axes.axvline(WAVELENGTH_NM, color="black", linewidth=0.8)
-    axes.text(WAVELENGTH_NM, -0.5, " λ = 580 nm", va="bottom", fontsize=8)
+    axes.text(WAVELENGTH_NM + 15.0, 0.0, "λ = 580 nm", va="center", fontsize=8)
+    inches = axes.secondary_xaxis(
+        "top",
+        functions=(
+            lambda nm: np.asarray(nm, float) / MICROINCH_NM,
+            lambda inch: np.asarray(inch, float) * MICROINCH_NM,
+        ),
+    )
+    inches.set_xlabel("σ, microinches, as printed")
     axes.set_yticks(rows, [f"{name}, {metal}" for name, metal in zip(names, metals, strict=True)])
     axes.set(xlabel="root mean square height σ, nm", ylim=(len(names) - 0.5, -0.5))
-    axes.legend(loc="upper right")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.3))
     heights = np.array([along, across]) / MICROINCH_NM
     return Sheet(
         picture=figure,
@@ -49,8 +57,8 @@ def draw(quick: bool) -> Sheet:
             "across the grain, microinch": heights[1],
             "with the grain, nm": along,
             "across the grain, nm": across,
-            "coherent share, with": coherent[0],
-            "coherent share, across": coherent[1],
+            "coherent share, with": np.round(coherent[0], 6),
+            "coherent share, across": np.round(coherent[1], 6),
         },
         checks=(
             Check("smallest height", float(heights.min()), "microinch", 2.99, 3.01),
@@ -61,7 +69,11 @@ def draw(quick: bool) -> Sheet:
                 at_least=0.05,
                 at_most=0.1,
             ),
-            Check("largest coherent share of every other finish", float(coherent[0][2:].max()), at_most=1e-6),
+            Check(
+                "largest coherent share of every other finish",
+                float(np.max(coherent, axis=0)[2:].max()),
+                at_most=1e-6,
+            ),
         ),
     )
 
@@ -74,8 +86,8 @@ PLATE = Plate(
     "in microinches (1 microinch = 25.4 nm).",
     claim="Only a fine grind leaves any mirror reflection of visible light: the other surfaces are about a wavelength "
     "rough, and the coherent share $e^{-g}$ (eqs 2.36 and 2.37) vanishes.",
-    today='The finishes are materials by name (`finish = "side mill"`), with slopes of our own; the two directions of '
-    "the grain make an anisotropic surface.",
+    today='The finishes are materials by name (`finish = "side mill"`), with slopes that we have chosen; the two '
+    "directions of the grain make an anisotropic surface.",
     draw=draw,
     commands=("illuminant audit 'aluminium, side mill'",),
 )

@@ -36,6 +36,7 @@ def draw(quick: bool) -> Sheet:
     }
     _munsell(Sketch(panels[0], View(-60.0, 22.0)), plain=quick)
     panels[0].set_title("Munsell")
+    panels[0].set_anchor("N")
     for axes, (name, convert) in zip(panels[1:], solids.items(), strict=True):
         sketch = Sketch(axes, View(-60.0, 24.0))
         if convert is None:
@@ -57,6 +58,8 @@ def draw(quick: bool) -> Sheet:
         sketch.patches(list(places), list(np.clip(faces, 0.0, 1.0)), linewidths=0.15)
         axes.set_title(name)
         sketch.frame(0.04)
+        # Titles of one row stand at one height.
+        axes.set_anchor("N")
 
     random = np.random.default_rng(31)
     colours = random.uniform(0.0, 1.0, (2000, 3))

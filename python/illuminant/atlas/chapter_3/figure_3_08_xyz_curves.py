@@ -20,7 +20,7 @@ def draw(quick: bool) -> Sheet:
     figure.legends[0].remove()
     axes = figure.axes[0]
     colours = [line.get_color() for line in axes.lines[:3]]
-    inset = axes.inset_axes((0.7, 0.52, 0.29, 0.4))
+    inset = axes.inset_axes((0.7, 0.52, 0.3, 0.4))
     for colour, curve, dashed, other in zip(colours, right.T, printed.T, wide.T, strict=True):
         axes.plot(nm, dashed, color=colour, **PRINTED)
         axes.plot(nm, other, color=colour, linestyle=(0, (1, 1.5)), linewidth=1.1)

@@ -16,6 +16,16 @@ MONITOR = "book NTSC"
 CORNERS = ("black", "red", "green", "blue", "yellow", "magenta", "cyan", "white")
 STEPS = 33
 
+ASIDE = {
+    "K": (4.0, 12.0),
+    "B": (0.0, 9.0),
+    "u* M": (2.0, -9.0),
+    "a K": (0.0, 16.0),
+    "a B": (10.0, -6.0),
+    "a R": (7.0, -7.0),
+}
+"""Where letters stand beside their corners, in points, seen from the side where an edge is in the way."""
+
 
 def edges() -> tuple[list[str], Array]:
     """The twelve edges of the cube: from which corner to which, and linear RGB (12, STEPS, 3) along each."""
@@ -54,6 +64,7 @@ def draw(quick: bool) -> Sheet:
     import numpy as np
     from matplotlib.collections import LineCollection
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
     from illuminant import color
     from illuminant.color.uniform import Form
@@ -121,10 +132,13 @@ def draw(quick: bool) -> Sheet:
                 end = found[edge, 0 if names[edge].startswith(corner) else -1]
                 outward = np.array([end[1], end[up] - (0.0 if row == 0 else 50.0)])
                 outward = 9.0 * outward / np.linalg.norm(outward)
+                shift = (float(outward[0]), float(outward[1]))
+                if row == 1:
+                    shift = ASIDE.get(f"{labels[1]} {letter}", ASIDE.get(letter, shift))
                 axes.annotate(
                     letter,
                     (end[1], end[up]),
-                    outward,
+                    shift,
                     textcoords="offset points",
                     ha="center",
                     va="center",
@@ -134,6 +148,12 @@ def draw(quick: bool) -> Sheet:
             f"{name} of {title.split(' (')[0].removeprefix('today: ').split(' ×')[0]}": found[..., i].ravel()
             for i, name in enumerate(labels)
         }
+    entries = [
+        Line2D([], [], color=GREY, linestyle=":", linewidth=1.3),
+        Line2D([], [], color=GREY, **PRINTED),
+    ]
+    words = ["primaries mixed with white", "from black, L* as printed"]
+    figure.legend(entries, words, loc="outside lower center", ncols=2)
     white = lab(np.ones(3))
     return Sheet(
         picture=figure,

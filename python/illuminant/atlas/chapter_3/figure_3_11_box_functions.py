@@ -17,7 +17,7 @@ def draw(quick: bool) -> Sheet:
 
     from illuminant import sampling, spectra
     from illuminant.plots.sketch import new_sketches
-    from illuminant.plots.style import TODAY, line_look
+    from illuminant.plots.style import INK, TODAY, line_look
 
     products = 300 if quick else 3000
     boxes, fitted = sampling.compare(
@@ -38,16 +38,23 @@ def draw(quick: bool) -> Sheet:
     flat = np.array([np.full_like(curve, 0.6)[one].mean() for one in sampled])[box]
 
     figure, axes = new_sketches((7.4, 5.6), 1, 3)
-    for k, one in enumerate(sampled):
-        axes[0].plot(wavelengths, np.where(one, heights[k], 0.0), **line_look(k), label=f"sample {k + 1}")
-        axes[1].plot(wavelengths, np.where(box == k, 1.0, np.nan), **line_look(k))
+    for k in range(COUNT):
+        first, last = bounds[k : k + 2]
+        outline = [first, first, last, last], [0.0, heights[k], heights[k], 0.0]
+        axes[0].plot(*outline, **line_look(k), label=f"sample {k + 1}")
+        # The first and the last go on beyond the visible.
+        ends = (first if k else wavelengths[0], last if k < COUNT - 1 else wavelengths[-1])
+        axes[1].plot(ends, (1.0, 1.0), **line_look(k))
     axes[0].set(ylabel="sampling, 1/nm", ylim=(0, 1.5 * max(heights)))
     axes[0].legend(ncols=4, loc="upper center")
     axes[1].set(ylabel="reconstruction", ylim=(0, 1.3))
-    axes[2].plot(wavelengths, curve, **TODAY, label=CURVE.replace("/", ", "))
-    axes[2].plot(wavelengths, rebuilt, **line_look(1), label="sampled and built again")
+    axes[2].plot(wavelengths, curve, color=INK, linewidth=1.0, label=CURVE.replace("/", ", "))
+    axes[2].step(wavelengths, rebuilt, **line_look(1), where="post", label="sampled and built again")
+    points = np.array(fitted.wavelengths_nm["D65"])
+    dots = TODAY | {"linestyle": "", "marker": "o", "markersize": 6.0}
+    axes[2].plot(points, spectra.load(CURVE).at(points), **dots, label=f"today: fitted:{COUNT} samples here")
     axes[2].set(ylabel="reflectance", xlabel="wavelength, nm", ylim=(0, 0.9))
-    axes[2].legend(loc="upper left")
+    axes[2].legend(loc="center left", bbox_to_anchor=(0.0, 0.68))
     for k, (first, last) in enumerate(itertools.pairwise(bounds)):
         axes[0].text(
             (first + last) / 2, 0.5 * heights[k], f"{first:.0f} to {last:.0f} nm", ha="center", fontsize=8
