@@ -11,6 +11,18 @@ from illuminant.cli import _command
 from illuminant.errors import UsageError
 
 NAMES = [plate.name for plate in atlas.plates()]
+CONTENTS = """
+2.2 2.4 2.6 2.8 2.9 2.12 2.16 2.19 2.20 2.21 2.22 3.1 3.5 3.6 3.7 3.8 3.9 3.10 3.11 3.13 3.14
+4.5 4.7 4.8 4.9 4.10 4.11 4.12 4.13 4.14 4.15 4.18 4.19 4.20 4.21 4.24 4.25 4.26 4.27
+4.29 4.30 4.31 4.32 4.33 4.34 4.35 4.36 4.37
+5.2 5.3 5.4 5.5 5.6 5.7 5.8 5.9 5.10 5.12 5.16 5.17 5.18 5.19 5.23 5.24 5.25 5.26 5.27 5.28
+II.1 II.2 II.3 II.4 III.5 III.6 III.7 IV.1 table-2.1 table-4.1 table-5.1 table-II.5
+"""
+"""What of the book a computer can make: plots, pictures, tables, and the diagrams that explain the geometry."""
+
+
+def test_the_atlas_holds_what_a_computer_can_make_of_the_book():
+    assert {atlas.plate(number).name for number in CONTENTS.split()} <= set(NAMES)
 
 
 @pytest.mark.parametrize("name", NAMES)
