@@ -18,8 +18,11 @@ def draw(quick: bool) -> Sheet:
     ways: list[tuple[str, ...]] = [("light", name) for name in ("patch 1", "patch 2", "patch 3")]
     ways += [("patch 1", "patch 2"), ("patch 1", "patch 3"), ("patch 2", "patch 3")]
     ways += [("patch 2", "patch 1"), ("patch 3", "patch 1"), ("patch 3", "patch 2")]
+    notes = [
+        f"{1e3 * one:.2f}; in balance {1e3 * whole:.2f}" for one, whole in zip(steps[1], balance, strict=True)
+    ]
     figure, _ = draw_room(
-        steps[1] / balance.max(), ways, "from the light: and once from patch to patch", False
+        steps[1] / balance.max(), ways, "from the light, and once from patch to patch", False, notes
     )
     missing = np.abs(balance - steps).max(axis=1)
     radius = float(np.abs(np.linalg.eigvals(diffuse.exchanged)).max())
