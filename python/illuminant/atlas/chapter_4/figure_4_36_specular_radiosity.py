@@ -41,7 +41,12 @@ def draw(quick: bool) -> Sheet:
         quick,
         (
             Check("block from the other place over this one, radiosity", change("4.35"), "", 0.98, 1.02),
-            Check("the same, specular radiosity", abs(change(NUMBER) - 1.0), "", at_least=0.05),
+            Check(
+                "departure of the same from 1, specular radiosity",
+                abs(change(NUMBER) - 1.0),
+                "",
+                at_least=0.05,
+            ),
             Check(
                 "steps of luminance on the silver ball, over the reference",
                 steps(NUMBER) / steps(None),
