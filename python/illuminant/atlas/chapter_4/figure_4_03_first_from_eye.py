@@ -49,7 +49,7 @@ PLATE = Plate(
     title="First approximation from the eye",
     shows="Three diffuse patches and a light (intensity 1). The eye asks patch 3, and that the light; what other "
     "patches send, $I_{1,3}$ and $I_{2,3}$, is taken for 0 or for an ambient value (eq 4.1). Grey is what is known "
-    "of a patch.",
+    "of a patch, and black nothing; numbers are intensities.",
     claim="Light that comes by way of other patches is missing, and an ambient value, the mean of the intensities, "
     "makes up for more than half of it.",
     today="The techniques that ask no further (`constant`, `gouraud`, `phong`) have an ambient light that is "

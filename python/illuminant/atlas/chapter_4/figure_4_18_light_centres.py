@@ -142,8 +142,9 @@ PLATE = Plate(
     number="4.18",
     title="Shadow tests to fixed centres of a lamp",
     shows="Above a lamp, a plate and the floor in section: from each place a bundle of 4 rays goes to 4 fixed "
-    "centres of the lamp; those that the plate stops are dashed. Below the illuminance of the floor. The lamp (1 m "
-    "× 1 m) is turned, so that its centres stand at four places across the edge of the shadow.",
+    "centres of the lamp; those that the plate stops are dashed. Below, with the same places under each other, the "
+    "illuminance of the floor. The lamp (1 m × 1 m) is turned, so that its centres stand at four places across the "
+    "edge of the shadow.",
     claim="Fixed centres make bands: with 4 the penumbra is wrong by about an eighth of the light, 64 make the "
     "bands finer, and jittered rays turn them into noise that is smaller.",
     today="Jittered or Sobol points in the solid angle of the lamp, so that noise falls faster than the number of rays "

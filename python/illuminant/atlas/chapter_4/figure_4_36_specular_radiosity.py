@@ -62,11 +62,13 @@ PLATE = Plate(
     number=NUMBER,
     title="Compared: radiosity that reflects",
     shows="The same room by radiosity with directions: each patch has a cube of cells into which it sends light "
-    "(Immel, Cohen and Greenberg). The book shows a reflective environment.",
+    "(Immel, Cohen and Greenberg). The book shows a reflective environment. What is glass is left out.",
     claim="The copper block looks different from another place, which diffuse radiosity cannot; but a mirror is no "
     "sharper than the cells of the cubes, and the silver ball shows less than a third of the reference's detail.",
     today="It is kept because it shows what directions cost in memory; `hybrid` follows mirrors with rays and is "
     "sharp for less.",
     draw=draw,
-    commands=("illuminant render --help",),
+    commands=(
+        "illuminant render scenes/cornell.toml --technique specular-radiosity --elements 300 --cube 8 --samples 4",
+    ),
 )
