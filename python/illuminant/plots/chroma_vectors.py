@@ -116,12 +116,30 @@ def _graticule(axes: Axes, bars: float, targets: dict[str, NDArray[np.float64]])
         axes.annotate(name, (1.1 * tip[0], 1.1 * tip[1]), ha="center", va="center", fontsize=8.5)
     for name, (u, v) in targets.items():
         if name == "burst":
-            axes.annotate("burst", (u, v), (0, 6), textcoords="offset points", ha="center", fontsize=7.5)
+            # Traces run all about it.
+            axes.annotate(
+                "burst",
+                (u, v),
+                (0, 6),
+                textcoords="offset points",
+                ha="center",
+                fontsize=7.5,
+                zorder=4,
+                bbox={"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.85},
+            )
             continue
         radius, angle = np.hypot(u, v), np.arctan2(v, u)
         a = angle + np.radians(2.5) * np.array([-1, -1, 1, 1, -1])
         r = radius + 2.5 * np.array([-1, 1, 1, -1, -1])
         rgb = tuple(0.85 * value for value in BARS[name])
         axes.plot(r * np.cos(a), r * np.sin(a), color=rgb, linewidth=1.4, zorder=3)
-        place = (radius + 7.0) * np.array([np.cos(angle), np.sin(angle)])
-        axes.annotate(name, tuple(place), ha="center", va="center", fontsize=8.0, color=INK)
+        # Beyond the box and the loops about it.
+        out = np.array([np.cos(angle), np.sin(angle)])
+        axes.annotate(
+            name,
+            tuple((radius + 5.5) * out),
+            ha="left" if out[0] > 0.5 else "right" if out[0] < -0.5 else "center",
+            va="bottom" if out[1] > 0.4 else "top" if out[1] < -0.4 else "center",
+            fontsize=8.0,
+            color=INK,
+        )

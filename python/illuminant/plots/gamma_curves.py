@@ -177,7 +177,7 @@ def perceived(black: float = BLACK, curve: Curve = 2.2, steps: int = 16) -> Figu
         right.plot(lightness(at, black), at, label="equal steps of L*", **line_look(1))
         right.set_xlabel("code value, or perceived brightness")
         right.set_ylabel("relative intensity")
-        right.set_title(f"The monitor beside: r = {alike.response:.3f}")
+        right.set_title(f"Inverse, and a monitor (r = {alike.response:.3f} with ΔI/I)")
         for axes in (left, right):
             axes.set_xlim(0.0, 1.0)
             axes.set_ylim(0.0, 1.0)

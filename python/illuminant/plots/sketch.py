@@ -200,8 +200,8 @@ class Sketch:
                 zorder=9,
             )
 
-    def ray(self, points: ArrayLike, colour: str = INK, **look: Any) -> None:
-        """Light on its way through points: a thin line with a head in the middle of each part."""
+    def ray(self, points: ArrayLike, colour: str = INK, head: float = 0.53, **look: Any) -> None:
+        """Light on its way through points: a thin line with a head on each part, so far along it."""
         import numpy as np
 
         path = self.paper(points)
@@ -211,13 +211,13 @@ class Sketch:
         width = float(style["linewidth"])
         for a, b in itertools.pairwise(path):
             if np.hypot(*(b - a)) > 0.0:
-                head = {"arrowstyle": "-|>,head_width=0.2,head_length=0.42", "linewidth": width}
-                head |= {"color": colour, "shrinkA": 0, "shrinkB": 0, "alpha": style.get("alpha")}
+                arrow = {"arrowstyle": "-|>,head_width=0.2,head_length=0.42", "linewidth": width}
+                arrow |= {"color": colour, "shrinkA": 0, "shrinkB": 0, "alpha": style.get("alpha")}
                 self.axes.annotate(
                     "",
-                    tuple(a + 0.55 * (b - a)),
-                    tuple(a + 0.5 * (b - a)),
-                    arrowprops=head,
+                    tuple(a + (head + 0.02) * (b - a)),
+                    tuple(a + (head - 0.03) * (b - a)),
+                    arrowprops=arrow,
                     zorder=style["zorder"],
                 )
 

@@ -26,6 +26,9 @@ FROM_SIDE = ((0.0, 1.0), (-0.92, -0.22), (0.55, -0.30))
 
 FROM_ABOVE = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
 
+# Where names of corners are free of edges and axes seen from the side; elsewhere they stand outwards of the middle.
+_ASIDE = {"white": (22.0, 7.0), "green": (-22.0, -9.0), "magenta": (30.0, 7.0)}
+
 # Ends of the arrows along Y, I and Q.
 _TIPS = ((1.18, 0.0, 0.0), (0.0, 0.78, 0.0), (0.0, 0.0, 0.70))
 
@@ -47,7 +50,7 @@ def yiq_gamut(limits: Limits | None = None, *, size: tuple[float, float] = (9.0,
         figure = Figure(figsize=size, dpi=DPI, layout="constrained", facecolor="white")
         side, above = figure.subplots(1, 2)
         for axes, view, title in ((side, FROM_SIDE, "RGB in Y I Q"), (above, FROM_ABOVE, "seen along Y")):
-            axes.set_aspect("equal")
+            axes.set_aspect("equal", anchor="N")
             axes.set_axis_off()
             axes.set_title(title)
             _draw(axes, view, limits)
@@ -101,7 +104,9 @@ def _draw(axes: Axes, view: Sequence[tuple[float, float]], limits: Limits | None
         at = _seen(corner.yiq, view)
         out = at - centre
         length = float(np.hypot(*out))
-        shift = out / length * 13.0 if length > 1e-6 else np.array([36.0, -3.0])
+        shift = out / length * 13.0 if length > 1e-6 else np.array([46.0, -8.0])
+        if view is FROM_SIDE:
+            shift = np.array(_ASIDE.get(corner.name, tuple(shift)))
         axes.annotate(
             corner.name if length > 1e-6 else ("white, black" if corner.name == "white" else ""),
             tuple(at),

@@ -19,8 +19,13 @@ def draw(quick: bool) -> Sheet:
     ambient = float(balance.mean())
     with_ambient = np.array([eye.from_eye(patch, 1, ambient) for patch in range(3)])
     shades = np.array([0.0, 0.0, seen[2]]) / balance.max()
+    notes = (
+        "not asked",
+        "not asked",
+        f"{1e3 * seen[2]:.2f}; with ambient light {1e3 * with_ambient[2]:.2f}; in balance {1e3 * balance[2]:.2f}",
+    )
     figure, _ = draw_room(
-        shades, [("light", "patch 3", "eye")], "from the eye: what patch 3 has of the light", True
+        shades, [("light", "patch 3", "eye")], "from the eye: what patch 3 has of the light", True, notes
     )
     missing, left = 1.0 - seen[2] / balance[2], abs(with_ambient[2] / balance[2] - 1.0)
     return Sheet(
@@ -44,7 +49,7 @@ PLATE = Plate(
     title="First approximation from the eye",
     shows="Three diffuse patches and a light (intensity 1). The eye asks patch 3, and that the light; what other "
     "patches send, $I_{1,3}$ and $I_{2,3}$, is taken for 0 or for an ambient value (eq 4.1). Grey is what is known "
-    "of a patch.",
+    "of a patch, and black nothing; numbers are intensities.",
     claim="Light that comes by way of other patches is missing, and an ambient value, the mean of the intensities, "
     "makes up for more than half of it.",
     today="The techniques that ask no further (`constant`, `gouraud`, `phong`) have an ambient light that is "

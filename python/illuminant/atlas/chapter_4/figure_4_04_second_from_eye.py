@@ -22,7 +22,12 @@ def draw(quick: bool) -> Sheet:
         ("light", "patch 1", "patch 3", "eye"),
         ("light", "patch 2", "patch 3", "eye"),
     ]
-    figure, _ = draw_room(shades, ways, "from the eye: once and twice reflected", True)
+    notes = (
+        f"{1e3 * seen[0, 0]:.2f} of the light alone",
+        f"{1e3 * seen[0, 1]:.2f} of the light alone",
+        f"first {1e3 * seen[0, 2]:.2f}; second {1e3 * seen[1, 2]:.2f}; in balance {1e3 * balance[2]:.2f}",
+    )
+    figure, _ = draw_room(shades, ways, "from the eye: once and twice reflected", True, notes)
     light = np.array([diffuse.from_light(step) for step in (1, 2, 3)])
     return Sheet(
         picture=figure,

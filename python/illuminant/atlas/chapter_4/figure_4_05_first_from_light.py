@@ -16,7 +16,10 @@ def draw(quick: bool) -> Sheet:
     balance = diffuse.solved()
     first = diffuse.from_light(1)
     ways = [("light", name) for name in ("patch 1", "patch 2", "patch 3")]
-    figure, _ = draw_room(first / balance.max(), ways, "from the light: what comes straight", False)
+    notes = [
+        f"{1e3 * one:.2f}; in balance {1e3 * whole:.2f}" for one, whole in zip(first, balance, strict=True)
+    ]
+    figure, _ = draw_room(first / balance.max(), ways, "straight from the light", False, notes)
     # A corner-to-corner independent number: radiosity solved with many elements, averaged over the patches.
     apart = float(np.abs(balance / found.solved - 1.0).max())
     bound = float(diffuse.exchanged.sum(axis=0).max())

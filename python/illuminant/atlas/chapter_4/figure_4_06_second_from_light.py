@@ -18,8 +18,11 @@ def draw(quick: bool) -> Sheet:
     ways: list[tuple[str, ...]] = [("light", name) for name in ("patch 1", "patch 2", "patch 3")]
     ways += [("patch 1", "patch 2"), ("patch 1", "patch 3"), ("patch 2", "patch 3")]
     ways += [("patch 2", "patch 1"), ("patch 3", "patch 1"), ("patch 3", "patch 2")]
+    notes = [
+        f"{1e3 * one:.2f}; in balance {1e3 * whole:.2f}" for one, whole in zip(steps[1], balance, strict=True)
+    ]
     figure, _ = draw_room(
-        steps[1] / balance.max(), ways, "from the light: and once from patch to patch", False
+        steps[1] / balance.max(), ways, "from the light, and once from patch to patch", False, notes
     )
     missing = np.abs(balance - steps).max(axis=1)
     radius = float(np.abs(np.linalg.eigvals(diffuse.exchanged)).max())
@@ -55,8 +58,8 @@ PLATE = Plate(
     title="Second approximation from the light",
     shows="In the second iteration of eqs 4.5a to c every patch also has what the others sent after the first "
     "(blue). Grey is intensity; it is drawn on the scale of figure 4.5.",
-    claim="Every step takes the same factor off what is missing, the spectral radius of the coefficients, which is "
-    "below 1 because patches absorb and do not see each other only; and $n^2$ coefficients do.",
+    claim="From step to step what is missing shrinks by the same factor, the spectral radius of the coefficients; it "
+    "is below 1, as patches absorb and see the open room too, and $n^2$ coefficients are enough.",
     today="Krylov methods (`bicgstab`, what is taken if nothing is said) take fewer steps than this iteration where "
     "patches are bright; `--solver gauss-seidel`, `gauss` and `progressive` are there to compare.",
     draw=draw,

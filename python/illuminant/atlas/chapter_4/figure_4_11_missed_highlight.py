@@ -46,7 +46,7 @@ def draw(quick: bool) -> Sheet:
     axes.plot(place, rows[1], **TODAY, label="normals interpolated")
     axes.plot(place, rows[2], **line_look(1), label="colours interpolated, 4 pixels")
     axes.set(xlabel="place across the square, x", ylabel="luminance, cd/m²", xlim=(-1, 1), ylim=(0, None))
-    axes.legend(loc="lower center")
+    axes.legend(loc="lower center", ncols=3, borderaxespad=0.2)
     highlights = [float(image.layers["specular"][..., 1].max()) for image in images]
     return Sheet(
         picture=figure,

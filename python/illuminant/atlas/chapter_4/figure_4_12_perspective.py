@@ -53,8 +53,8 @@ def draw(quick: bool) -> Sheet:
     axes.plot(place, curves["screen, 4"], **line_look(1), label="on the screen, 4 × 4 squares")
     axes.plot(place, ray.xyz[seen, column, 1], **TODAY, label="in the world, and ray traced")
     axes.set(
-        xlabel="height on the screen, of the image's",
-        ylabel="luminance in the middle column, cd/m²",
+        xlabel="height on the screen, in heights of the image",
+        ylabel="luminance, middle column, cd/m²",
         ylim=(0, None),
     )
     axes.legend(loc="upper left", fontsize=8)

@@ -121,8 +121,9 @@ def draw(quick: bool) -> Sheet:
         [shallow_rays], [error(shallow)], "s", color=line_look(1)["color"], label="fixed depth of 4 segments"
     )
     axes.axhline(STEP, color=GREY, linestyle=":", linewidth=0.9, label="one step of the output, 1/255")
+    axes.margins(x=0.09)
     axes.set(yscale="log", xlabel="rays a pixel", ylabel="mean error, of white")
-    axes.legend(loc="upper right")
+    axes.legend(loc="upper right", bbox_to_anchor=(1.0, 0.9))
     return Sheet(
         picture=figure,
         columns={

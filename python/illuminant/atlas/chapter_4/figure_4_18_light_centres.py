@@ -53,14 +53,22 @@ def draw(quick: bool) -> Sheet:
             look: dict[str, Any] = (
                 {"linestyle": (0, (3, 2)), "linewidth": 0.8} if blocked else {"linewidth": 0.9}
             )
-            sketch.ray(np.array([[place, 0.0], end]), red if blocked else blue, **look)
+            sketch.ray(
+                np.array([[place, 0.0], end]),
+                red if blocked else blue,
+                head=0.6 if blocked or place < 0.0 else 0.8,
+                **look,
+            )
     for centre in centres:
         sketch.dot([centre, LAMP_Y])
         edge = -centre * PLATE_Y / (LAMP_Y - PLATE_Y)
         sketch.line([[centre, LAMP_Y], [edge, 0.0]], linewidth=0.5, linestyle=":")
-    sketch.label([x[0], PLATE_Y], "plate", (14, 8), fontsize=8.5)
-    sketch.label([reach, LAMP_Y], "lamp, 4 centres", (48, 2), fontsize=8.5)
+    sketch.label([x[0], PLATE_Y], "plate", (20, 9), fontsize=8.5)
+    sketch.label([reach, LAMP_Y], "lamp, 4 centres", (44, 3), fontsize=8.5)
+    # Widths are those of the plot below, so that steps stand under the ends of the dotted lines.
     sketch.frame(0.03)
+    upper.set_aspect("auto")
+    upper.set_xlim(x[0], x[-1])
     lower.plot(x, area, **TODAY, label="the area of the lamp")
     lower.plot(x, four, **line_look(1), label="4 centres")
     lower.plot(x, many, **line_look(2), linewidth=1.0, label="64 centres")
@@ -134,8 +142,9 @@ PLATE = Plate(
     number="4.18",
     title="Shadow tests to fixed centres of a lamp",
     shows="Above a lamp, a plate and the floor in section: from each place a bundle of 4 rays goes to 4 fixed "
-    "centres of the lamp; those that the plate stops are dashed. Below the illuminance of the floor. The lamp (1 m "
-    "× 1 m) is turned, so that its centres stand at four places across the edge of the shadow.",
+    "centres of the lamp; those that the plate stops are dashed. Below, with the same places under each other, the "
+    "illuminance of the floor. The lamp (1 m × 1 m) is turned, so that its centres stand at four places across the "
+    "edge of the shadow.",
     claim="Fixed centres make bands: with 4 the penumbra is wrong by about an eighth of the light, 64 make the "
     "bands finer, and jittered rays turn them into noise that is smaller.",
     today="Jittered or Sobol points in the solid angle of the lamp, so that noise falls faster than the number of rays "

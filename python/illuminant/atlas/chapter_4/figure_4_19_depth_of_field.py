@@ -61,15 +61,17 @@ def draw(quick: bool) -> Sheet:
     for k in range(5):
         start = np.array([0.0, drawn * (k - 2) / 2])
         end = start + (np.array([FOCUS_M, 0.0]) - start) * 4.0 / FOCUS_M
-        sketch.ray([start, end], red, linewidth=0.8)
+        sketch.ray([start, end], red, head=0.27, linewidth=0.8)
     sketch.dot([FOCUS_M, 0.0], color=red)
     half = drawn * (4.0 / FOCUS_M - 1.0)
     sketch.line([[4.0, -half], [4.0, half]], color=blue, linewidth=3.0, zorder=6)
     sketch.label([4.0, 0.0], "circle of\nconfusion", (30, -16), color=blue, fontsize=8.5)
-    sketch.label([0.0, -drawn], "lens, 100 mm f/2", (8, -12), fontsize=8.5)
+    sketch.label([0.0, -drawn], "lens, 100 mm f/2", (-8, -12), fontsize=8.5, ha="left")
     sketch.paper([[-0.25, -1.5], [4.85, -1.5]])
     sketch.axes.set_title("rays of one pixel (heights × 36)")
     sketch.frame(0.03)
+    # As high as the plot beside it.
+    left.set_aspect("auto")
 
     fine = np.linspace(0.8, 4.2, 200)
     right.plot(fine, 2e3 * radius * np.abs(fine / FOCUS_M - 1.0), **line_look(0), label="thin lens")

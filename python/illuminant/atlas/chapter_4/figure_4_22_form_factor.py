@@ -34,7 +34,8 @@ def draw(quick: bool) -> Sheet:
     for place, normal, other, name in ((here, z, there, "n"), (there, -z, here, "m")):
         sketch.angle(place, normal, other - place, 0.26)
         middle = arc(place, normal, other - place, 0.26)[16]
-        sketch.label(middle, f"$\\theta_{name}$", (-3, 9 if name == "n" else -9))
+        # Beside the angle, which is too narrow to hold it.
+        sketch.label(middle, f"$\\theta_{name}$", (-13, 3) if name == "n" else (14, -3))
         sketch.label(place, f"$dA_{name}$", (20, -7 if name == "n" else 7), color=red)
     sketch.label((here + there) / 2, "$r_{m,n}$", (16, 4), color=red)
     sketch.label(lower[1], "patch $n$", (16, -6), fontsize=9)

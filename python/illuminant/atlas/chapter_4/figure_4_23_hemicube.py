@@ -37,10 +37,10 @@ def draw(quick: bool) -> Sheet:
         for corner in polygon:
             sketch.line([[0, 0, 0], corner], color=colour, linewidth=0.6, zorder=4.5)
         sketch.patch(polygon, face=colour, edge="#222222", zorder=6, alpha=0.6)
-        sketch.label(polygon.mean(axis=0), name, fontsize=12, zorder=10)
+        sketch.label(polygon.mean(axis=0), name, (-16, 0), fontsize=12, zorder=10)
     sketch.dot([0, 0, 0])
     sketch.arrow([0, 0, 0], [0, 0, 1.35], "$\\mathbf{N}$")
-    sketch.label([1.3, -1.3, 0], "patch that receives", (-62, 16), fontsize=8.5)
+    sketch.label([1.3, -1.3, 0], "patch that receives", (-72, 6), fontsize=8.5)
     sketch.frame()
 
     resolutions = np.array([8, 16, 32, 64, 128] if quick else [8, 16, 32, 64, 128, 256])

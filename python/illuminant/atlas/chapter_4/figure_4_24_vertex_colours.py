@@ -70,7 +70,8 @@ def draw(quick: bool) -> Sheet:
                 sketch.dot(at, 3.5, color=line_look(1 if rim[j, i] else 0)["color"])
                 sketch.label(
                     at,
-                    f"{values[j, i]:.2f}\n{off:+.0f} %".replace("-", "−"),
+                    f"{values[j, i]:.2f}\n"
+                    + ("0 %" if abs(off) < 0.5 else f"{off:+.0f} %".replace("-", "−")),
                     (0, 0),
                     fontsize=6.5,
                     color="#222222",

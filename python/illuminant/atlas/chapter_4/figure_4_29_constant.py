@@ -46,7 +46,8 @@ PLATE = Plate(
     number=NUMBER,
     title="Compared: one colour a polygon, Bouknight",
     shows="The first of nine pictures of one room (book 4.6): the colour of every polygon is constant, by "
-    "Bouknight's model (eq 4.9). The book points at the faceted appearance.",
+    "Bouknight's model (eq 4.9). The book points at the faceted appearance. Below each picture stands how "
+    "far it is from the reference: mean ΔE00 and FLIP, and its mean luminance in percent of the reference's (energy).",
     claim="Every polygon has one radiance: the back wall shows exactly two luminances, and the ball no more than it "
     "has polygons.",
     today="Beside it stands the reference of all nine, `path` with `general`, with its difference: what is missing "

@@ -49,7 +49,8 @@ PLATE = Plate(
     title="Compared: reflection map",
     shows="The same room with a highlight by a power of the cosine and a reflection map. The book points at the "
     "horizon that is reflected, and at the lack of what is near. It traces rays to the first surface; here normals "
-    "are interpolated, which shows the same.",
+    "are interpolated, which shows the same. Light goes straight through the glass ball; from $1/n$ of its radius on "
+    "it meets the far side beyond the critical angle, and none comes through: the dark ring.",
     claim="The silver ball shows the horizon and nothing of the room: it changes with the sky all over, and not at "
     "all when the red wall beside it is painted grey.",
     today="`raytrace` and everything after it asks what stands in the mirror direction; the map is what is left for "

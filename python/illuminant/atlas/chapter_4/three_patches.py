@@ -91,7 +91,11 @@ def room(elements: int) -> Room:
 
 
 def draw_room(
-    shades: Sequence[float], paths: Sequence[Sequence[str]], title: str, eye: bool
+    shades: Sequence[float],
+    paths: Sequence[Sequence[str]],
+    title: str,
+    eye: bool,
+    notes: Sequence[str] = ("", "", ""),
 ) -> tuple[Figure, Sketch]:
     """The room with its patches in grey, and ways of light through it.
 
@@ -100,6 +104,7 @@ def draw_room(
         paths: the things between whose middles light goes: "light", "patch 1", "eye".
         title: above it.
         eye: whether the eye is there.
+        notes: what is written under the number of each patch.
     """
     import numpy as np
 
@@ -107,7 +112,7 @@ def draw_room(
 
     figure, (axes,) = new_sketches((6.4, 4.6))
     sketch = Sketch(axes, View(-88.0, 20.0))
-    axes.set_title(title)
+    axes.set_title(f"{title} (thousandths of the light's intensity)" if any(notes) else title)
     middles = {"light": _corners(*LIGHT).mean(axis=0), "eye": np.array(EYE)}
     # The floor lies behind the others.
     for (name, thing), shade in reversed(list(zip(PATCHES.items(), shades, strict=True))):
@@ -116,24 +121,30 @@ def draw_room(
         # Code values for a display, roughly: a power of 1/2.2.
         grey = 0.12 + 0.85 * float(np.clip(shade, 0.0, 1.0)) ** (1.0 / 2.2)
         sketch.patch(corners, face=(grey, grey, grey), edge="#222222")
-        ink = "#222222" if grey > 0.5 else "white"
-        at = corners[0] + 0.14 * (corners[1] - corners[0]) + 0.14 * (corners[3] - corners[0])
-        sketch.label(at, name[-1], color=ink, fontsize=11)
+        lowest = corners[np.argmin(sketch.paper(corners)[:, 1])]
+        at, across = (lowest, 0.0) if name != "patch 3" else ((corners[0] + corners[1]) / 2, -60.0)
+        sketch.label(at, f"patch {name[-1]}", (across, -10), fontsize=9)
+        sketch.label(at, notes[int(name[-1]) - 1], (across, -22), fontsize=8.5, va="center")
     sketch.patch(_corners(*LIGHT), face=LAMP, edge="#222222")
-    sketch.label(middles["light"], "light", (0, 0), fontsize=9)
+    sketch.label(np.array(LIGHT[0]) + LIGHT[1], "light", (18, -2), fontsize=9)
     if eye:
         sketch.dot(middles["eye"], 7.0)
         sketch.label(middles["eye"], "eye", (16, -7))
     looks = {2: line_look(1)["color"], 3: line_look(0)["color"], 4: line_look(2)["color"]}
     used: dict[tuple[str, str], int] = {}
-    for path in paths:
+    for order, path in enumerate(paths):
         bounces = len(path) - (1 if eye else 0)
         colour = looks.get(bounces, GREY) if path[0] == "light" else looks[3]
         points = []
         for one in path:
             # Ways that share a patch meet it side by side.
             number = used[path[0], one] = used.get((path[0], one), -1) + 1
-            points.append(middles[one] + np.array([0.07, 0.05, 0.0]) * (number if one != "eye" else 0))
-        sketch.ray(points, colour)
+            points.append(middles[one] + np.array([0.12, 0.08, 0.0]) * (number if one == "patch 3" else 0))
+        if path[0] != "light":
+            # There and back lie side by side.
+            way = middles[path[1]] - middles[path[0]]
+            aside = np.cross(sketch.view.towards_eye, way) if sketch.view else np.zeros(3)
+            points = [middles[one] + 0.045 * aside / np.linalg.norm(aside) for one in path]
+        sketch.ray(points, colour, head=(0.53, 0.42, 0.64)[order % 3] if eye else 0.53)
     sketch.frame()
     return figure, sketch

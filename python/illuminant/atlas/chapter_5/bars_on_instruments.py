@@ -108,6 +108,21 @@ def instruments(values: Float64, signal: Signal) -> Figure:
     scope.set_aspect("equal")
     scope.set_axis_off()
     chroma_vectors.draw(scope, signal, UPPER)
-    scope.plot(*scopes.vectors(signal, LOWER).T, ".", color="black", markersize=2.0, zorder=2)
+    below = scopes.vectors(signal, LOWER)
+    # Dots are the bars themselves; on the way from one to the next, and through white and black, is a thin line.
+    scope.plot(*below.T, color="black", linewidth=0.4, alpha=0.4, zorder=1.8)
+    width = signal.active.shape[1] * 1.25 / 7.0
+    for k, name in enumerate(BOTTOM):
+        bar = below[round((k + 0.25) * width) : round((k + 0.75) * width)]
+        scope.plot(*bar.T, ".", color="black", markersize=2.0, zorder=3)
+        if name != "white 100%":
+            scope.annotate(
+                name.replace("-", "−"),
+                bar.mean(axis=0),
+                (9, 0),
+                textcoords="offset points",
+                va="center",
+                fontsize=8.0,
+            )
     scope.set_title("Vectorscope; black: the row below")
     return figure

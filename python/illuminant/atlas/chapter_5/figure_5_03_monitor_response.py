@@ -17,7 +17,7 @@ def draw(quick: bool) -> Sheet:
     code = np.linspace(0.0, 1.0, 256)
     curves = {f"γ = {gamma:g}": response(code, gamma) for gamma in GAMMAS}
     srgb = response(code, "sRGB")
-    figure, axes = new_figure((5.8, 5.0))
+    figure, axes = new_figure((5.2, 5.0))
     axes.plot(code, srgb, **TODAY, label="today: sRGB")
     for i, (name, curve) in enumerate(curves.items()):
         look = line_look(i) if i < 3 else {"color": GREY, "linestyle": ":"}

@@ -15,7 +15,7 @@ def draw(quick: bool) -> Sheet:
 
     table = correction_table(2.2, rounding="truncate")
     srgb = correction_table("sRGB")
-    figure, axes = new_figure((5.8, 5.0))
+    figure, axes = new_figure((5.3, 5.0))
     axes.plot(np.arange(256), srgb.entries, **TODAY, label="today: sRGB")
     axes.plot(
         np.arange(256),
@@ -43,8 +43,8 @@ def draw(quick: bool) -> Sheet:
         ylim=(0, 255),
         aspect="equal",
     )
-    axes.set_xticks(range(0, 256, 32))
-    axes.set_yticks(range(0, 256, 32))
+    axes.set_xticks([*range(0, 225, 32), 255])
+    axes.set_yticks([*range(0, 225, 32), 255])
     axes.grid(True)
     axes.legend(loc="lower right")
     inset = axes.inset_axes((0.55, 0.24, 0.42, 0.4))

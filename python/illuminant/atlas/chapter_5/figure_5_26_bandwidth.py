@@ -50,8 +50,8 @@ PLATE = Plate(
     title="The bandwidths of Y, I and Q",
     shows="A black and white picture whose lines pass the bandwidths of the three signals, 4.2, 1.3 and 0.5 MHz; a "
     "line is scanned in 52.6 µs.",
-    claim="A line carries 221 cycles of Y, 68 of I and 26 of Q, so that of what Q carries a picture of 53 pixels a "
-    "line would hold as much.",
+    claim="A line carries 221 cycles of Y, 68 of I and 26 of Q, so that a picture of 53 pixels a line holds all "
+    "that Q can carry.",
     printed="For I the book has 68.3 cycles; 1.3 MHz in 52.6 µs are 68.4.",
     today="The filters are of linear phase and keep within the limits of 47 CFR 73.682, by which I is less than 2 dB "
     "down at 1.3 MHz and Q less than 6 dB at 0.5 MHz.",
