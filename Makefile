@@ -39,7 +39,7 @@ test: lint ## Run every check: lint, Rust tests, Python tests
 	@$(CARGO_TEST)
 	@tools/browser.sh
 	@echo "illuminant: pytest"
-	@$(BIN)/python -m pytest
+	@$(BIN)/python -m pytest -n 2 --dist loadfile
 
 test-slow: .venv/.core ## Run the long tests: a million draws, the wheel by itself
 	@$(CARGO_TEST) --test laws -- --ignored
