@@ -97,6 +97,8 @@ class Refiner:
         self._rate = 0.3  # Msamples/s of previews so far
         self._kept: tuple[State, Job] | None = None
         self.solution: Solution | None = None
+        self.solved = 0
+        """How many solutions were found anew, not relit; each has elements of its own."""
         self._solved_for: State | None = None
         self._solving: State | None = None
         self._latest: Request | None = None
@@ -269,6 +271,7 @@ class Refiner:
             return
         with self._condition:
             self.solution, self._solved_for, self._solving = found, state, None
+            self.solved += 1
             if self._wanted is None and self._latest is not None and not self._closed:
                 # What was asked for last, which may be another state by now, goes on.
                 self._number += 1
