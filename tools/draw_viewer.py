@@ -74,13 +74,16 @@ class Page:
         self.tab.wait_for_timeout(1000)
 
     def save(self, path: Path) -> None:
-        """Save a screenshot in so many colours that it stays small."""
+        """Save a screenshot, in fewer colours where it would not be small."""
         with Image.open(io.BytesIO(self.tab.screenshot())) as shot:
             picture = shot.convert("RGB")
-        for colours in (256, 160, 96, 64):
-            picture.quantize(colours, dither=Image.Dither.NONE).save(path, optimize=True)
+        picture.save(path, optimize=True)
+        for colours in (256, 128, 64):
             if path.stat().st_size <= LARGEST:
                 return
+            picture.quantize(colours, dither=Image.Dither.FLOYDSTEINBERG).save(path, optimize=True)
+        if path.stat().st_size <= LARGEST:
+            return
         raise SystemExit(f"{path} has more than {LARGEST:,} bytes")
 
 
@@ -128,6 +131,8 @@ def measure(browser: Any) -> None:
         page.fold("Display")
         page.choose("show", "luminance in false colours")
         page.fold("Display")
+        page.tab.mouse.move(750, 300)
+        page.tab.mouse.wheel(0, -2000)
         page.tab.wait_for_timeout(1000)
         page.save(IMAGES / "viewer-measure.png")
 
@@ -140,7 +145,10 @@ def compare(browser: Any) -> None:
         page.tab.get_by_label("hold at the left", exact=True).click()
         page.until(lambda: page.session.held_frame is not None and not page.session.held_frame.preview)
         page.choose("spectrum", "FL11")
-        page.session.divider = 0.34
+        divider = page.tab.locator("input[value='0.5']").first
+        divider.fill("0.34")
+        divider.press("Enter")
+        page.until(lambda: page.session.divider == 0.34)
         page.rendered(4)
         page.save(IMAGES / "viewer-compare.png")
 

@@ -26,6 +26,8 @@ __all__ = ["Session"]
 MOST_PIXELS = 1280 * 800
 """Of a picture; the page enlarges it to the window."""
 
+WIRE_COLOUR = (70, 160, 255)
+
 ENOUGH_SAMPLES = 16
 """Of a picture that says what is white."""
 
@@ -216,7 +218,7 @@ class Session:
                 if solution is not None and wanted[0] != WIRES[0]:
                     ends = edges(solution.mesh(), wanted[0])
                     self._lines = self.client.scene.add_line_segments(
-                        "/wireframe", ends, (255, 255, 255), thickness=1.0, thickness_units="screen"
+                        "/wireframe", ends, WIRE_COLOUR, thickness=1.0, thickness_units="screen"
                     )
             if self._lines is None:
                 return None

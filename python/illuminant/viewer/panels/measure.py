@@ -35,7 +35,10 @@ class MeasurePanel:
                 (np.array([380.0, 780.0]), np.zeros(2)),
                 ({"label": "nm"}, {"label": "mW/(sr m² nm)", "stroke": "#56B4E9", "width": 2}),
                 scales={"x": {"time": False}},
-                axes=({"label": "wavelength, nm"}, {"label": "mW·sr⁻¹·m⁻²·nm⁻¹", "size": 60}),
+                axes=(
+                    {"label": "wavelength, nm", "size": 32, "labelSize": 22},
+                    {"label": "mW·sr⁻¹·m⁻²·nm⁻¹", "size": 60},
+                ),
                 title="spectral radiance",
                 aspect=1.5,
                 padding=(12, 12, 0, 0),
