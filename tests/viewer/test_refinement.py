@@ -87,3 +87,19 @@ def test_first_pictures_disperse_nothing_and_differ_in_nothing_else(repository):
         one["name"] for one in state.scene.description["materials"] if one["surface"]["kind"] != "dielectric"
     ]
     assert np.array_equal(plain.description["camera"]["eye"], state.scene.description["camera"]["eye"])
+
+
+def test_a_closed_refiner_keeps_nothing(cornell):
+    import gc
+    import weakref
+
+    with refiner() as (made, frames, _):
+        made.ask(cornell, camera(cornell))
+        until(lambda: any(not frame.preview for frame in frames))
+        job = weakref.ref(made._kept[1])
+        gc.disable()
+    frames.clear()
+    try:
+        until(lambda: job() is None, 5.0)
+    finally:
+        gc.enable()

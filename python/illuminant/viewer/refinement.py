@@ -134,6 +134,8 @@ class Refiner:
             self._condition.notify()
         if threading.current_thread() is not self._thread:
             self._thread.join(timeout=10.0)
+        # Pages and refiners know each other, so Python would free them late, and it knows nothing of the core's memory.
+        self._kept = self._bending = self._solved_for = self._latest = self._wanted = self.solution = None
 
     def _current(self, request: Request) -> bool:
         return not self._closed and request.number == self._number
@@ -295,7 +297,10 @@ class Refiner:
             self._solving = None
             return
         with self._condition:
-            self.solution, self._solved_for, self._solving = found, state, None
+            self._solving = None
+            if self._closed:
+                return
+            self.solution, self._solved_for = found, state
             self.solved += 1
             if self._wanted is None and self._latest is not None and not self._closed:
                 # What was asked for last, which may be another state by now, goes on.

@@ -259,3 +259,4 @@ class Session:
         self.refiner.close()
         if self._second is not None:
             self._second.close()
+        self.frame = self.held_frame = self._depth = None
