@@ -147,9 +147,7 @@ def compare(browser: Any) -> None:
         page.tab.get_by_label("hold at the left", exact=True).click()
         page.until(lambda: page.session.held_frame is not None and not page.session.held_frame.preview)
         page.choose("spectrum", "FL11")
-        divider = page.tab.locator("input[value='0.5']:not([type=hidden])").first
-        divider.fill("0.34")
-        divider.press("Enter")
+        page.session.panels.compare.divider.value = 0.34
         page.until(lambda: page.session.divider == 0.34)
         page.rendered(4)
         page.save(IMAGES / "viewer-compare.png")
