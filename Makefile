@@ -62,7 +62,7 @@ format: .venv/.packages ## Lay out the Rust and Python sources
 
 bench: .venv/.core ## Measure beside peers and beside raw Embree; prints tables (docs/benchmarks.md)
 	@peers=$$(benches/peers.sh); eval "$$peers"; \
-	for script in compare_mitsuba embree_limit lanes memory fitted color dither scanline glossy many_lamps form_factors radiance; do \
+	for script in compare_mitsuba embree_limit lanes memory fitted color dither scanline glossy many_lamps form_factors viewer radiance; do \
 	  echo "illuminant: benches/$$script.py"; $(BIN)/python benches/$$script.py; done
 
 site: .venv/.core build/atlas/index.md ## Build the documentation site in build/site/html (docs, atlas, references)

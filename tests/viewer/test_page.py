@@ -251,3 +251,12 @@ def test_radiosity_is_relit_at_once(browser, repository):
         page.full()
         assert session.refiner.relit_seconds is not None
         assert np.abs(page.pixels() - before).mean() > 3.0
+        relit = page.pixels()
+        session.wire("patches")
+        page.page.wait_for_timeout(1500)
+        assert (np.abs(page.pixels() - relit).max(axis=2) > 20).mean() > 0.01, (
+            "lines are drawn over the picture"
+        )
+        session.wire("none")
+        page.page.wait_for_timeout(1500)
+        assert np.abs(page.pixels() - relit).mean() < 2.0

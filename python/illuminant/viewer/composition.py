@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     Codes = NDArray[np.uint8]
 
-__all__ = ["MODES", "Composed", "compose", "difference_map", "false_colour", "split"]
+__all__ = ["MODES", "Composed", "compose", "difference_map", "enlarged", "false_colour", "split"]
 
 MODES = ("picture", "luminance in false colours", "colours out of gamut marked")
 DECADES = 3.0
@@ -93,7 +93,7 @@ def split(left: Codes, right: Codes, fraction: float) -> Codes:
     import numpy as np
 
     height, width = max(left.shape[0], right.shape[0]), max(left.shape[1], right.shape[1])
-    first, second = _enlarged(left, height, width), _enlarged(right, height, width)
+    first, second = enlarged(left, height, width), enlarged(right, height, width)
     column = min(max(round(fraction * width), 0), width)
     joined = np.concatenate([first[:, :column], second[:, column:]], axis=1)
     if 0 < column < width:
@@ -122,7 +122,8 @@ def difference_map(a: NDArray[Any], b: NDArray[Any], exposure: float, kind: str)
     return np.asarray(colormaps["magma"](place, bytes=True)[..., :3]), float(mean)
 
 
-def _enlarged(codes: Codes, height: int, width: int) -> Codes:
+def enlarged(codes: Codes, height: int, width: int) -> Codes:
+    """A picture of another size, by the nearest pixel."""
     import numpy as np
 
     if codes.shape[:2] == (height, width):

@@ -5,6 +5,9 @@ fitting, so that it is there in a fifth of a second; then the whole picture, pas
 meanwhile ends the work at the next tile. Nothing here knows of browsers: frames are handed to `deliver`, sentences to
 `say`.
 
+In that first picture nothing disperses: materials that bend each wavelength by its own are prepared for hundreds of
+wavelengths, which takes longer than the picture.
+
 What is expensive is kept: the wavelengths, while only the camera changes; the solution of radiosity, which is relit or
 repainted (`Solution.of`) where that is enough.
 """
@@ -25,12 +28,15 @@ from illuminant.viewer.camera import limited
 if TYPE_CHECKING:
     from illuminant.image import Image
     from illuminant.radiosity import Solution
+    from illuminant.scene import Scene
     from illuminant.viewer.state import State
 
 __all__ = ["Frame", "Refiner", "Request"]
 
-PREVIEW_SECONDS = 0.1
+PREVIEW_SECONDS = 0.08
 PREVIEW_SAMPLING = "uniform:8"
+FIRST_RATE = 0.15
+"""Millions of samples a second, by which the very first picture has its size; later ones go by how fast that was."""
 MOST_SAMPLES = 4096
 ERROR = 0.002
 """Relative standard error at which a picture is good."""
@@ -94,9 +100,12 @@ class Refiner:
         self._number = 0
         self._closed = False
         self._condition = threading.Condition()
-        self._rate = 0.3  # Msamples/s of previews so far
+        self._rate = FIRST_RATE
         self._kept: tuple[State, Job] | None = None
+        self._bending: tuple[Scene, Scene] | None = None
         self.solution: Solution | None = None
+        self.solved = 0
+        """How many solutions were found anew, not relit; each has elements of its own."""
         self._solved_for: State | None = None
         self._solving: State | None = None
         self._latest: Request | None = None
@@ -112,6 +121,12 @@ class Refiner:
             self._condition.notify()
             return self._number
 
+    def adopt(self, solution: Solution, state: State) -> None:
+        """Take over a solution that was found elsewhere for a state."""
+        with self._condition:
+            self.solution, self._solved_for = solution, state
+            self.solved += 1
+
     def close(self) -> None:
         """End the work and the thread."""
         with self._condition:
@@ -119,6 +134,8 @@ class Refiner:
             self._condition.notify()
         if threading.current_thread() is not self._thread:
             self._thread.join(timeout=10.0)
+        # Pages and refiners know each other, so Python would free them late, and it knows nothing of the core's memory.
+        self._kept = self._bending = self._solved_for = self._latest = self._wanted = self.solution = None
 
     def _current(self, request: Request) -> bool:
         return not self._closed and request.number == self._number
@@ -168,7 +185,7 @@ class Refiner:
         if not known:
             options = {"technique": "path", "illumination": "general"}
         job = Job(
-            state.scene.replace(camera=camera),
+            self._undispersed(state).replace(camera=camera),
             **options,
             sampling=state.sampling if kept else PREVIEW_SAMPLING,
             samples=1,
@@ -179,6 +196,18 @@ class Refiner:
         for samples in job.passes(lambda _: self._current(request)):
             self._rate = size[0] * size[1] / max(clock.perf_counter() - start, 1e-4) / 1e6
             self._deliver(self._frame(request, job, samples, preview=True))
+
+    def _undispersed(self, state: State) -> Scene:
+        """The scene with glass that bends all wavelengths alike."""
+        if self._bending is None or self._bending[0] is not state.scene:
+            tables = {
+                name: dict(table) | {"dispersion": False}
+                for name, table in state.tables.get("materials", {}).items()
+                if table.get("kind") == "dielectric" and isinstance(table.get("medium"), str)
+            }
+            plain = state.scene.replace(materials=tables) if tables else state.scene
+            self._bending = state.scene, plain
+        return self._bending[1]
 
     # --- the whole picture ---------------------------------------------------------------------------------------
 
@@ -268,7 +297,11 @@ class Refiner:
             self._solving = None
             return
         with self._condition:
-            self.solution, self._solved_for, self._solving = found, state, None
+            self._solving = None
+            if self._closed:
+                return
+            self.solution, self._solved_for = found, state
+            self.solved += 1
             if self._wanted is None and self._latest is not None and not self._closed:
                 # What was asked for last, which may be another state by now, goes on.
                 self._number += 1

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from illuminant.errors import Error
 from illuminant.viewer.camera import limited, scene_camera, vertical_rad
-from illuminant.viewer.composition import MODES, compose, difference_map, split
+from illuminant.viewer.composition import MODES, compose, difference_map, enlarged, split
 from illuminant.viewer.refinement import Frame, Refiner
+from illuminant.viewer.scale import with_scale
+from illuminant.viewer.wireframe import WIRES, depth, edges
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,6 +25,8 @@ __all__ = ["Session"]
 
 MOST_PIXELS = 1280 * 800
 """Of a picture; the page enlarges it to the window."""
+
+WIRE_COLOUR = (70, 160, 255)
 
 ENOUGH_SAMPLES = 16
 """Of a picture that says what is white."""
@@ -46,6 +50,10 @@ class Session:
         self.held_frame: Frame | None = None
         self.divider = 0.5
         self.map = "none"
+        self.wires = WIRES[0]
+        self._wired: tuple[str, int] = (WIRES[0], 0)
+        self._lines: Any = None
+        self._depth: tuple[Any, NDArray[np.float32]] | None = None
         self._exposure_from = 0 if state.look.exposure is None else ENOUGH_SAMPLES
         self._lock = threading.RLock()
         self._shown_camera: Any = None
@@ -162,7 +170,8 @@ class Session:
             if other is not None and self.held is not None:
                 held = replace(self.held, look=state.look, stops=state.stops)
                 codes = self._beside(other, held, frame, codes)
-        self.client.scene.set_background_image(codes, format="png")
+        far = self._wire(frame) if self.wires != WIRES[0] or self._lines is not None else None
+        self.client.scene.set_background_image(codes, format="png", depth=far)
 
     def _beside(self, other: Frame, held: State, frame: Frame, codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """The held setting at the left and the chosen one at the right, or the map of their difference."""
@@ -170,7 +179,8 @@ class Session:
         if self.map != "none" and a.shape == b.shape:
             codes, mean = difference_map(a, b, self.state.exposure or 1.0, self.map)
             self.panels.compare.mean(self.map, mean)
-            return codes
+            top = 10.0 if self.map == "ΔE00" else 1.0
+            return with_scale(codes, "magma", 0.0, top, self.map, logarithmic=False)
         self.panels.compare.mean("none", 0.0)
         return split(self.composed(other, held), codes, self.divider)
 
@@ -179,7 +189,43 @@ class Session:
         made = compose(frame.image.xyz, state, self.mode)
         if frame is self.frame:
             self.panels.facts(made)
-        return made.codes
+        if made.scale is None:
+            return made.codes
+        # A preview is enlarged first, or the page would enlarge the numbers with it.
+        width, height = frame.request.camera["size"]
+        codes = enlarged(made.codes, height, width)
+        return with_scale(codes, "viridis", *made.scale, "luminance, cd/m²", logarithmic=True)
+
+    # --- wireframe -----------------------------------------------------------------------------------------------
+
+    def wire(self, kind: str) -> None:
+        """Draw the edges of a solution over the picture, or none."""
+        self.wires = kind
+        if kind != WIRES[0] and self.refiner.solution is None:
+            self.say("Elements belong to a solution: choose radiosity or hybrid.", True)
+        self.show()
+
+    def _wire(self, frame: Frame) -> NDArray[np.float32] | None:
+        """Draw the edges that are chosen, if there is a solution; how far the picture is away, which hides some."""
+        solution = self.refiner.solution
+        with self._lock:
+            wanted = (self.wires if solution is not None else WIRES[0], self.refiner.solved)
+            if wanted != self._wired:
+                self._wired = wanted
+                if self._lines is not None:
+                    self._lines.remove()
+                    self._lines = None
+                if solution is not None and wanted[0] != WIRES[0]:
+                    ends = edges(solution.mesh(), wanted[0])
+                    self._lines = self.client.scene.add_line_segments(
+                        "/wireframe", ends, WIRE_COLOUR, thickness=1.0, thickness_units="screen"
+                    )
+            if self._lines is None:
+                return None
+            camera = frame.request.camera
+            if self._depth is None or self._depth[0] is not camera:
+                self._depth = camera, depth(frame.request.state.scene, camera)
+            return self._depth[1]
 
     def say(self, text: str, wrong: bool) -> None:
         """Show a sentence in the page."""
@@ -213,3 +259,4 @@ class Session:
         self.refiner.close()
         if self._second is not None:
             self._second.close()
+        self.frame = self.held_frame = self._depth = None

@@ -8,7 +8,7 @@ Example:
     >>> light = np.array([0.6, 0.0, 0.8])
     >>> reflected(light, np.array([0.0, 0.0, 1.0])).round(6).tolist()
     [-0.6, 0.0, 0.8]
-    >>> refracted(light, np.array([0.0, 0.0, 1.0]), 1.0, 1.5).round(6).tolist()
+    >>> (refracted(light, np.array([0.0, 0.0, 1.0]), 1.0, 1.5).round(6) + 0.0).tolist()
     [-0.4, 0.0, -0.916515]
 """
 

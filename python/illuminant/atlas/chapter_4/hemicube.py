@@ -5,7 +5,7 @@ factor ΔA/(π (x² + y² + 1)²), one on the side x = 1 z ΔA/(π (y² + z² + 
 for intensities), so its own sum to π. The core has the same cells for radiosity; these stand for drawings.
 
 Example:
-    >>> round(float(hemicube(32).delta.sum()), 3)
+    >>> round(float(hemicube(32).delta.sum()), 2)
     1.0
 """
 

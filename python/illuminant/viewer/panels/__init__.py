@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from illuminant.viewer.refinement import Frame
     from illuminant.viewer.session import Session
 
-__all__ = ["Panels"]
+__all__ = ["Panels", "duration"]
 
 
 class Panels:
@@ -32,10 +32,10 @@ class Panels:
         self._status = gui.add_markdown("Starting …")
         self._facts = gui.add_markdown("")
         self.picture = PicturePanel(session)
+        self.measure = MeasurePanel(session)
         self.display = DisplayPanel(session)
         self.lamps = LampPanel(session)
         self.material = MaterialPanel(session)
-        self.measure = MeasurePanel(session)
         self.compare = ComparePanel(session)
         self.keep = KeepPanel(session)
 
@@ -45,18 +45,17 @@ class Panels:
         plural = "" if frame.samples == 1 else "s"
         parts = [f"{width} × {height}", f"{frame.samples} sample{plural}", f"{frame.mrays:.1f} Mrays/s"]
         if frame.error is not None:
-            parts.append(f"error {100 * frame.error:.2g} %")
+            parts.append(f"noise {100 * frame.error:.2g} %")
         if frame.left is not None and frame.left > 0.5:
-            parts.append(f"at most {_time(frame.left)} left")
+            parts.append(f"at most {duration(frame.left)} left")
         self._status.content = ", ".join(parts)
 
     def facts(self, made: Composed) -> None:
         """Tell what the look did to the picture."""
         if made.scale is not None:
-            low, high = made.scale
-            self._facts.content = f"{low:.3g} cd/m² (violet) to {high:.3g} cd/m² (yellow), logarithmic"
+            self._facts.content = "Luminance on a logarithmic scale; darker than its end is violet."
         else:
-            self._facts.content = f"{100 * made.outside:.2g} % of the pixels are out of gamut"
+            self._facts.content = f"{100 * made.outside:.2g} % of the pixels are out of gamut."
 
     def say(self, text: str, wrong: bool) -> None:
         """Show a sentence in place of the progress."""
@@ -64,6 +63,14 @@ class Panels:
             self._status.content = f"**{text}**" if wrong else text
 
 
-def _time(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """Seconds as people say them.
+
+    Example:
+        >>> duration(7.2), duration(95), duration(9130)
+        ('7 s', '1:35 min', '2 h 32 min')
+    """
     minutes, rest = divmod(round(seconds), 60)
+    if minutes >= 60:
+        return f"{minutes // 60} h {minutes % 60} min"
     return f"{minutes}:{rest:02d} min" if minutes else f"{rest} s"

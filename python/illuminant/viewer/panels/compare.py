@@ -18,9 +18,9 @@ class ComparePanel:
     def __init__(self, session: Session) -> None:
         gui = session.client.gui
         with gui.add_folder("Compare", expand_by_default=False):
-            hold = gui.add_checkbox("hold this setting, at the left", False)
-            divider = gui.add_slider("divider", 0.0, 1.0, 0.005, session.divider)
-            maps = gui.add_dropdown("map of the difference", list(MAPS), initial_value="none")
+            hold = gui.add_checkbox("hold at the left", False)
+            divider = self.divider = gui.add_slider("divider", 0.0, 1.0, 0.005, session.divider)
+            maps = gui.add_dropdown("difference", list(MAPS), initial_value="none")
             self._mean = gui.add_markdown("")
 
         def moved() -> None:

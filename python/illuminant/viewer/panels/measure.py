@@ -8,7 +8,18 @@ if TYPE_CHECKING:
     from illuminant.viewer.reading import Reading
     from illuminant.viewer.session import Session
 
-__all__ = ["MeasurePanel"]
+__all__ = ["MeasurePanel", "amount"]
+
+
+def amount(value: float) -> str:
+    """A quantity with four digits, and no power of ten where people write none.
+
+    Example:
+        >>> amount(23451.7), amount(1540.2), amount(0.01234), amount(3e-9)
+        ('23,450', '1,540', '0.01234', '3e-09')
+    """
+    rounded = float(f"{value:.4g}")
+    return f"{rounded:,.0f}" if 1000.0 <= abs(rounded) < 1e9 else f"{value:.4g}"
 
 
 class MeasurePanel:
@@ -22,11 +33,15 @@ class MeasurePanel:
             self._told = gui.add_markdown("Click a point.")
             self._spectrum = gui.add_uplot(
                 (np.array([380.0, 780.0]), np.zeros(2)),
-                ({"label": "nm"}, {"label": "radiance", "stroke": "#56B4E9", "width": 2}),
+                ({"label": "nm"}, {"label": "mW/(sr m² nm)", "stroke": "#56B4E9", "width": 2}),
                 scales={"x": {"time": False}},
-                axes=({"label": "wavelength, nm"}, {"label": "mW·sr⁻¹·m⁻²·nm⁻¹", "size": 70}),
+                axes=(
+                    {"label": "wavelength, nm", "size": 32, "labelSize": 22},
+                    {"label": "mW·sr⁻¹·m⁻²·nm⁻¹", "size": 60},
+                ),
                 title="spectral radiance",
-                aspect=1.6,
+                aspect=1.5,
+                padding=(12, 12, 0, 0),
                 visible=False,
             )
 
@@ -36,14 +51,16 @@ class MeasurePanel:
         what = f"**{found.thing}**, {found.material}" if found.thing else "surroundings"
         rows = [
             f"{what}, pixel {found.pixel[0]}, {found.pixel[1]}",
-            f"luminance {found.luminance:.4g} cd/m²",
-            f"XYZ {found.xyz[0]:.4g}, {found.xyz[1]:.4g}, {found.xyz[2]:.4g}",
+            f"luminance {amount(found.luminance)} cd/m²",
+            "X Y Z " + "  ".join(amount(value) for value in found.xyz),
             f"x {x:.4f}, y {y:.4f}" if found.luminance > 0 else "black",
         ]
         if found.illuminance is not None:
-            rows.append(f"illuminance {found.illuminance:.4g} lx")
+            rows.append(f"illuminance {amount(found.illuminance)} lx")
         if found.delta_e is not None:
             rows.append(f"ΔE00 of what the display shows: {found.delta_e:.2f}")
+        if len(found.wavelengths_nm) < 100:
+            rows.append(f"spectrum at the {len(found.wavelengths_nm)} wavelengths of the solution")
         self._told.content = "\n\n".join(rows)
         self._spectrum.data = (found.wavelengths_nm, 1000.0 * found.radiance)
         self._spectrum.visible = True

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from illuminant.viewer.state import SAMPLINGS, choices
+from illuminant.viewer.wireframe import WIRES
 
 if TYPE_CHECKING:
     from illuminant.viewer.session import Session
@@ -14,7 +15,7 @@ __all__ = ["PicturePanel"]
 
 
 class PicturePanel:
-    """The folder of technique, model and sampling, and of cameras."""
+    """The folder of technique, model and sampling, of the wireframe and of cameras."""
 
     def __init__(self, session: Session) -> None:
         from illuminant.comparison import pairs
@@ -29,11 +30,13 @@ class PicturePanel:
             samplings = list(dict.fromkeys([state.sampling, *SAMPLINGS]))
             self._sampling = gui.add_dropdown("sampling", samplings, initial_value=state.sampling)
             self._refused = gui.add_markdown("")
+            wires = gui.add_dropdown("wireframe", WIRES, initial_value=WIRES[0])
             cameras = gui.add_button_group("camera", ("scene", "left", "right", "above"))
         self._name_refused()
         self._technique.on_update(lambda _: self._technique_chosen())
         self._model.on_update(lambda _: self._chosen(illumination=self._model.value))
         self._sampling.on_update(lambda _: self._chosen(sampling=self._sampling.value))
+        wires.on_update(lambda _: session.wire(wires.value))
         cameras.on_click(lambda _: session.preset(cameras.value))
 
     def _technique_chosen(self) -> None:

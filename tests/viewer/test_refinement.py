@@ -1,0 +1,105 @@
+"""The refiner without a page: frames come in order, what is asked for later wins, solutions are relit."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+import pytest
+
+from illuminant import radiosity
+from illuminant.viewer.refinement import Frame, Refiner
+from illuminant.viewer.state import State
+
+SIZE = [80, 50]
+
+
+@contextmanager
+def refiner() -> Iterator[tuple[Refiner, list[Frame], list[str]]]:
+    """A refiner, its frames, and its sentences about what went wrong."""
+    frames: list[Frame] = []
+    wrong: list[str] = []
+    made = Refiner(frames.append, lambda text, bad: wrong.append(text) if bad else None)
+    yield made, frames, wrong
+    made.close()
+
+
+def until(holds: Callable[[], Any], seconds: float = 30.0) -> None:
+    """Wait until something holds."""
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end, "it did not come"
+        time.sleep(0.01)
+
+
+def camera(state: State) -> dict[str, Any]:
+    return dict(state.scene.description["camera"]) | {"size": SIZE}
+
+
+@pytest.fixture(scope="module")
+def cornell(repository) -> State:
+    return State.of(repository / "scenes" / "cornell.toml", elements=200)
+
+
+def test_a_small_picture_comes_before_the_whole_and_later_requests_win(cornell):
+    with refiner() as (made, frames, wrong):
+        first = made.ask(cornell, camera(cornell))
+        until(lambda: any(not frame.preview for frame in frames))
+        second = made.ask(cornell, camera(cornell))
+        until(lambda: any(frame.request.number == second for frame in frames))
+        numbers = [frame.request.number for frame in frames]
+    assert frames[0].preview
+    assert numbers == sorted(numbers)
+    assert first < second
+    assert wrong == []
+
+
+def test_a_solution_found_elsewhere_is_relit(cornell):
+    from dataclasses import replace
+
+    state = replace(cornell, technique="radiosity")
+    options = {"elements": 200, "sampling": state.sampling, "form_factors": "rays:16", "light_samples": 4}
+    found = radiosity.solve(state.scene, technique="radiosity", **options)
+    lamp = state.tables["materials"]["lamp"] | {"spectrum": "FL7"}
+    with refiner() as (made, frames, wrong):
+        made.adopt(found, state)
+        made.ask(state, camera(state))
+        until(lambda: any(not frame.preview for frame in frames))
+        made.ask(state.with_tables(materials={"lamp": lamp}), camera(state))
+        until(lambda: made.relit_seconds is not None and frames[-1].request.number == 2)
+        assert made.solved == 1
+    before, after = frames[0].image.xyz.mean((0, 1)), frames[-1].image.xyz.mean((0, 1))
+    assert after[2] / after[0] > 1.3 * before[2] / before[0]
+    assert wrong == []
+
+
+def test_first_pictures_disperse_nothing_and_differ_in_nothing_else(repository):
+    state = State.of(repository / "scenes" / "demo.toml")
+    with refiner() as (made, _, _):
+        plain = made._undispersed(state)
+        assert made._undispersed(state) is plain
+    bending = [one for one in plain.description["materials"] if one["surface"]["kind"] == "dielectric"]
+    assert bending
+    assert not any(one["surface"]["dispersion"] for one in bending)
+    other = [one for one in plain.description["materials"] if one["surface"]["kind"] != "dielectric"]
+    assert [one["name"] for one in other] == [
+        one["name"] for one in state.scene.description["materials"] if one["surface"]["kind"] != "dielectric"
+    ]
+    assert np.array_equal(plain.description["camera"]["eye"], state.scene.description["camera"]["eye"])
+
+
+def test_a_closed_refiner_keeps_nothing(cornell):
+    import gc
+    import weakref
+
+    with refiner() as (made, frames, _):
+        made.ask(cornell, camera(cornell))
+        until(lambda: any(not frame.preview for frame in frames))
+        job = weakref.ref(made._kept[1])
+        gc.disable()
+    frames.clear()
+    try:
+        until(lambda: job() is None, 5.0)
+    finally:
+        gc.enable()
