@@ -29,7 +29,7 @@ def test_one_scene_two_files_and_a_closing_line(scene: Path, command: Command) -
     assert (done.returncode, done.stdout) == (0, "")
     closing, exposure = [line for line in done.stderr.splitlines() if not line.startswith("Warning: ")][:2]
     assert re.fullmatch(
-        r"a\.exr, a\.png: [\d.]+ s, 8 samples per pixel, \S+ Msamples/s, \S+ Mrays/s, \d+ MB, "
+        r"a\.exr, a\.png: [\d.]+ s, 8 samples per pixel, \S+ Msamples/s, \S+ Mrays/s, [\d.]+ [MG]B, "
         r"spectral ΔE00 \S+ \(max \S+\), 0 dropped",
         closing,
     )

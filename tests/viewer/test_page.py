@@ -172,6 +172,22 @@ def test_a_click_reads_spectrum_and_material(page):
     assert page.page.get_by_text("luminance").first.is_visible()
 
 
+def test_a_page_can_choose_only_what_is_offered(page):
+    """Whoever writes to the WebSocket sends what he likes: here a file in place of a display."""
+    panel, state = page.session.panels.display, page.session.state
+    control = panel._display
+    known = control.value
+    control._impl.value = "/etc/hostname"
+    panel._stops.value = panel._stops.value + 0.1
+    until(
+        lambda: (
+            page.page.wait_for_timeout(50) or "not one of the choices" in page.session.panels._status.content
+        )
+    )
+    assert page.session.state.look.display == state.look.display
+    control._impl.value = known
+
+
 def test_what_is_kept_is_valid_and_stays_in_the_folder(page):
     from illuminant.image import Image
     from illuminant.scene import load

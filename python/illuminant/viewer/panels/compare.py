@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from illuminant.viewer.panels.choice import answering, picked
+
 if TYPE_CHECKING:
     from illuminant.viewer.session import Session
 
@@ -24,12 +26,12 @@ class ComparePanel:
             self._mean = gui.add_markdown("")
 
         def moved() -> None:
-            session.divider, session.map = float(divider.value), maps.value
+            session.divider, session.map = float(picked(divider)), picked(maps)
             session.show()
 
-        hold.on_update(lambda _: session.hold(hold.value))
-        divider.on_update(lambda _: moved())
-        maps.on_update(lambda _: moved())
+        hold.on_update(answering(session, lambda: session.hold(bool(hold.value))))
+        divider.on_update(answering(session, moved))
+        maps.on_update(answering(session, moved))
 
     def mean(self, kind: str, value: float) -> None:
         """Tell the mean of a map."""

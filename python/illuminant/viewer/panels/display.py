@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from illuminant.errors import Error
 from illuminant.viewer.composition import MODES
+from illuminant.viewer.panels.choice import answering, picked
 
 if TYPE_CHECKING:
     from illuminant.viewer.session import Session
@@ -29,17 +29,13 @@ class DisplayPanel:
             self._gamut = gui.add_dropdown("gamut", gamut.methods(), initial_value=look.method)
             self._dither = gui.add_dropdown("dither", dither.names(), initial_value=look.dither)
         for control in (self._stops, self._mode, self._display, self._gamut, self._dither):
-            control.on_update(lambda _: self._chosen())
+            control.on_update(answering(session, self._chosen))
 
     def _chosen(self) -> None:
         session = self._session
         look = session.state.look
-        try:
-            chosen = replace(
-                look, display=self._display.value, gamut=self._gamut.value, dither=self._dither.value
-            )
-        except Error as error:
-            session.say(str(error), True)
-            return
-        session.mode = self._mode.value
-        session.look_at(replace(session.state, look=chosen, stops=float(self._stops.value)))
+        chosen = replace(
+            look, display=picked(self._display), gamut=picked(self._gamut), dither=picked(self._dither)
+        )
+        session.mode = picked(self._mode)
+        session.look_at(replace(session.state, look=chosen, stops=float(picked(self._stops))))

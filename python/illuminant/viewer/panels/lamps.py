@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from illuminant.errors import Error
+from illuminant.viewer.panels.choice import answering, picked
 from illuminant.viewer.tables import lamps, relit
 
 if TYPE_CHECKING:
@@ -44,16 +44,14 @@ class LampPanel:
         def chosen() -> None:
             word: Any = None
             if spectrum is not None:
-                kelvin.visible = spectrum.value == BLACKBODY
-                if spectrum.value == BLACKBODY:
-                    word = {"blackbody_k": float(kelvin.value)}
-                elif spectrum.value != OWN:
-                    word = spectrum.value
-            try:
-                changed = {name: relit(table, float(power.value), word)}
-                self._session.change(self._session.state.with_tables(**{kind: changed}))
-            except Error as error:
-                self._session.say(str(error), True)
+                named = picked(spectrum)
+                kelvin.visible = named == BLACKBODY
+                if named == BLACKBODY:
+                    word = {"blackbody_k": float(picked(kelvin))}
+                elif named != OWN:
+                    word = named
+            changed = {name: relit(table, float(picked(power)), word)}
+            self._session.change(self._session.state.with_tables(**{kind: changed}))
 
         for control in (power, spectrum, kelvin) if spectrum is not None else (power,):
-            control.on_update(lambda _: chosen())
+            control.on_update(answering(self._session, chosen))

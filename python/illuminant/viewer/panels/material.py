@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from illuminant.errors import Error
+from illuminant.viewer.panels.choice import answering, picked
 from illuminant.viewer.tables import choices_of, repainted
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ class MaterialPanel:
         self._folder = gui.add_folder("Material", expand_by_default=False)
         with self._folder:
             self._name = gui.add_dropdown("material", names, initial_value=names[0])
-        self._name.on_update(lambda _: self._build())
+        self._name.on_update(answering(session, self._build))
         self._build()
 
     def select(self, name: str) -> None:
@@ -37,7 +38,7 @@ class MaterialPanel:
     def _build(self) -> None:
         for control in self._controls:
             control.remove()
-        gui, name = self._session.client.gui, self._name.value
+        gui, name = self._session.client.gui, picked(self._name)
         table = self._session.state.tables["materials"][name]
         self._controls = []
         with self._folder:
@@ -46,13 +47,10 @@ class MaterialPanel:
                     control = gui.add_dropdown(key, values, initial_value=value)
                 else:
                     control = gui.add_slider(key, values[0], values[1], values[2], value)
-                control.on_update(lambda _, key=key, control=control: self._chosen(name, key, control.value))
+                control.on_update(answering(self._session, partial(self._chosen, name, key, control)))
                 self._controls.append(control)
 
-    def _chosen(self, name: str, key: str, value: Any) -> None:
+    def _chosen(self, name: str, key: str, control: Any) -> None:
         state = self._session.state
-        try:
-            table = repainted(state.tables["materials"][name], key, value)
-            self._session.change(state.with_tables(materials={name: table}))
-        except Error as error:
-            self._session.say(str(error), True)
+        table = repainted(state.tables["materials"][name], key, picked(control))
+        self._session.change(state.with_tables(materials={name: table}))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from illuminant.viewer.panels.choice import answering, picked
 from illuminant.viewer.state import SAMPLINGS, choices
 from illuminant.viewer.wireframe import WIRES
 
@@ -33,14 +34,14 @@ class PicturePanel:
             wires = gui.add_dropdown("wireframe", WIRES, initial_value=WIRES[0])
             cameras = gui.add_button_group("camera", ("scene", "left", "right", "above"))
         self._name_refused()
-        self._technique.on_update(lambda _: self._technique_chosen())
-        self._model.on_update(lambda _: self._chosen(illumination=self._model.value))
-        self._sampling.on_update(lambda _: self._chosen(sampling=self._sampling.value))
-        wires.on_update(lambda _: session.wire(wires.value))
-        cameras.on_click(lambda _: session.preset(cameras.value))
+        self._technique.on_update(answering(session, self._technique_chosen))
+        self._model.on_update(answering(session, lambda: self._chosen(illumination=picked(self._model))))
+        self._sampling.on_update(answering(session, lambda: self._chosen(sampling=picked(self._sampling))))
+        wires.on_update(answering(session, lambda: session.wire(picked(wires))))
+        cameras.on_click(answering(session, lambda: session.preset(picked(cameras))))
 
     def _technique_chosen(self) -> None:
-        technique = self._technique.value
+        technique = picked(self._technique)
         sensible, _ = choices(technique)
         model = self._model.value if self._model.value in sensible else next(iter(sensible))
         self._model.options = list(sensible)
