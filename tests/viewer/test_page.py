@@ -158,6 +158,35 @@ def test_a_lamp_of_another_spectrum_colours_the_room(page):
     assert after[2] / after[0] > 1.3 * before[2] / before[0], "daylight is bluer than an incandescent lamp"
 
 
+def test_a_lamp_takes_a_spectrum_from_a_file(page, tmp_path):
+    file = tmp_path / "sodium.csv"
+    file.write_text("wavelength_nm,emission\n580,0\n589,1\n598,0\n")
+    session = page.session
+    before = set(session.folder.iterdir())
+    with page.page.expect_file_chooser() as chooser:
+        page.page.get_by_role("button", name="spectrum from a file").first.click()
+    chooser.value.set_files(file)
+    until(lambda: page.page.wait_for_timeout(50) or set(session.folder.iterdir()) - before)
+    until(
+        lambda: (
+            page.page.wait_for_timeout(50) or "file" in session.state.tables["materials"]["lamp"]["spectrum"]
+        )
+    )
+    page.full(4)
+    red, green, blue = page.pixels().mean(axis=(0, 1))
+    assert red > green > 5 * blue, "sodium light is yellow"
+    kept = (set(session.folder.iterdir()) - before).pop()
+    assert kept.read_bytes() == file.read_bytes()
+    file.write_text("no spectrum")
+    with page.page.expect_file_chooser() as chooser:
+        page.page.get_by_role("button", name="spectrum from a file").first.click()
+    chooser.value.set_files(file)
+    until(lambda: page.page.wait_for_timeout(50) or "**" in session.panels._status.content)
+    assert set(session.folder.iterdir()) - before == {kept}
+    page.choose("spectrum", "FL7")
+    page.full(4)
+
+
 def test_a_click_reads_spectrum_and_material(page):
     page.page.mouse.click(180, 260)
     until(lambda: page.page.wait_for_timeout(100) or page.session.last_reading)

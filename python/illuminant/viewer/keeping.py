@@ -12,13 +12,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from illuminant import output
-from illuminant.errors import UsageError
+from illuminant.errors import Error, UsageError
 from illuminant.viewer.tables import relocate
 
 if TYPE_CHECKING:
     from illuminant.viewer.session import Session
 
-__all__ = ["command", "image", "scene", "solution", "spectrum"]
+__all__ = ["command", "image", "received", "scene", "solution", "spectrum"]
+
+MOST_BYTES = 1_000_000
+"""Of a file that a page sends."""
 
 
 def image(session: Session) -> list[Path]:
@@ -93,6 +96,27 @@ def solution(session: Session) -> list[Path]:
     target = _free(session, "view", ".solution")
     session.refiner.solution.save(target)
     return [target]
+
+
+def received(session: Session, content: bytes) -> Path:
+    """A spectrum that the page sent, as a file of the output folder under a name of ours.
+
+    Raises:
+        UsageError: it is larger than 1 MB.
+        DataError: it is no spectrum; then nothing is left of it.
+    """
+    from illuminant import spectrum_file
+
+    if len(content) > MOST_BYTES:
+        raise UsageError("A spectrum is a file of at most 1 MB.")
+    target = _free(session, "lamp", ".csv")
+    output.write_bytes(target, content)
+    try:
+        spectrum_file.read(target)
+    except Error:
+        target.unlink()
+        raise
+    return target
 
 
 def command(session: Session) -> str:
