@@ -19,7 +19,7 @@ from illuminant.viewer import view
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 SIZE = {"width": 700, "height": 480}
-CANVAS = (slice(160, 460), slice(20, 240))
+CANVAS = (slice(210, 460), slice(20, 240))
 """The part of a screenshot that no control covers."""
 
 
@@ -65,7 +65,7 @@ class Page:
 
         def there() -> bool:
             self.page.wait_for_timeout(50)  # lets the browser work
-            frame = self.session.frame
+            frame = self.session.sent
             return (
                 frame is not None
                 and frame.request.number == refiner._number
@@ -115,7 +115,7 @@ def test_the_page_shows_the_scene_as_it_is_rendered(page):
 
     # Over blocks of 10 by 10 pixels: the browser may shift a picture by a part of one.
     def blocks(codes: np.ndarray) -> np.ndarray:
-        return codes.reshape(30, 10, 22, 10, 3).astype(float).mean(axis=(1, 3))
+        return codes.reshape(25, 10, 22, 10, 3).astype(float).mean(axis=(1, 3))
 
     assert np.abs(blocks(seen) - blocks(scaled[CANVAS])).mean() < 3.0
     assert seen.mean() > 20.0

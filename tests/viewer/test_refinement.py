@@ -55,6 +55,28 @@ def test_a_small_picture_comes_before_the_whole_and_later_requests_win(cornell):
     assert wrong == []
 
 
+def test_a_moved_camera_keeps_the_wavelengths_and_another_lamp_does_not(cornell):
+    moved = camera(cornell) | {"eye": [0.278, 0.273, -0.6]}
+    lamp = cornell.tables["materials"]["lamp"] | {"spectrum": "FL7"}
+    previews: dict[int, str] = {}
+    fitted: dict[int, np.ndarray] = {}
+
+    def deliver(frame: Frame) -> None:  # on the refiner's thread, between two passes
+        if frame.preview:
+            previews[frame.request.number] = frame.image.settings["sampling"]
+        elif made._kept is not None:
+            fitted[frame.request.number] = np.asarray(made._kept[1].core_render.wavelengths())
+
+    made = Refiner(deliver, lambda text, bad: None)
+    for number, state in enumerate((cornell, cornell, cornell.with_tables(materials={"lamp": lamp})), 1):
+        made.ask(state, camera(state) if number == 1 else moved)
+        until(lambda number=number: number in fitted)
+    made.close()
+    assert np.array_equal(fitted[1], fitted[2])
+    assert not np.array_equal(fitted[2], fitted[3])
+    assert [previews[number] == cornell.sampling for number in (1, 2, 3)] == [False, True, False]
+
+
 def test_a_solution_found_elsewhere_is_relit(cornell):
     from dataclasses import replace
 

@@ -234,7 +234,6 @@ class Refiner:
     def _like(self, request: Request) -> Job | None:
         """A job whose wavelengths serve."""
         kept = self._kept
-        return None
         return kept[1] if kept is not None and _same(kept[0], request.state) else None
 
     # --- the solution --------------------------------------------------------------------------------------------

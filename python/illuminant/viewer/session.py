@@ -46,6 +46,7 @@ class Session:
         self.start = state
         self.mode = MODES[0]
         self.frame: Frame | None = None
+        self.sent: Frame | None = None
         self.held: State | None = None
         self.held_frame: Frame | None = None
         self.divider = 0.5
@@ -172,6 +173,7 @@ class Session:
                 codes = self._beside(other, held, frame, codes)
         far = self._wire(frame) if self.wires != WIRES[0] or self._lines is not None else None
         self.client.scene.set_background_image(codes, format="png", depth=far)
+        self.sent = frame
 
     def _beside(self, other: Frame, held: State, frame: Frame, codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """The held setting at the left and the chosen one at the right, or the map of their difference."""
@@ -259,4 +261,4 @@ class Session:
         self.refiner.close()
         if self._second is not None:
             self._second.close()
-        self.frame = self.held_frame = self._depth = None
+        self.frame = self.sent = self.held_frame = self._depth = None
