@@ -231,11 +231,18 @@ class Scene:
                 given = {
                     keys.get(key, key): one
                     for key, one in camera.items()
-                    if key != "shutter" and one is not None
+                    if key not in _RESOLVED and one is not None
                 }
                 parts["camera"] = metres.camera(given)
+                if parts["camera"] is not None:
+                    parts["camera"] |= {key: camera[key] for key in _RESOLVED if camera.get(key) is not None}
                 back = resolver.unit_m
-                frame["camera"] = given | {key: [x / back for x in given[key]] for key in ("eye", "target")}
+                kept = {key: one for key, one in frame.get("camera", {}).items() if key in _OF_THE_LENS}
+                frame["camera"] = (
+                    (kept if camera.get("lens") is not None else {})
+                    | given
+                    | {key: [x / back for x in given[key]] for key in ("eye", "target")}
+                )
             else:
                 frame["camera"] = frame.get("camera", {}) | camera
                 parts["camera"] = resolver.camera(frame["camera"])
@@ -436,6 +443,12 @@ class Scene:
         return image_width / (
             2.0 * math.tan(math.radians(self.description["camera"]["field_of_view_deg"]) / 2.0)
         )
+
+
+_RESOLVED = ("shutter", "lens", "end")
+"""Keys of a resolved camera that the scene file writes otherwise."""
+
+_OF_THE_LENS = ("focal_length_mm", "f_number", "focus_distance", "blades", "blades_turned", "shutter")
 
 
 def load(path: str | os.PathLike[str]) -> Scene:

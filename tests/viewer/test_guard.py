@@ -63,6 +63,20 @@ def test_a_damaged_cookie_is_no_cookie(guard):
     assert guard.refusal("/", OWN | {"Cookie": "\x00=;;;=,illuminant-8080"})
 
 
+def test_odd_cookies_of_other_programs_hide_nothing(guard):
+    odd = 'a={"b":1}; theme; k[]=1; ' + guard.cookie.split(";")[0]
+    assert guard.refusal("/", OWN | {"Cookie": odd}) is None
+
+
+@pytest.mark.parametrize("host", ["192.0.2.1", "no.such.host.invalid"])
+def test_an_address_of_no_machine_here_is_one_sentence(repository, host):
+    from illuminant.errors import Error
+    from illuminant.viewer import view
+
+    with pytest.raises(Error, match=host):
+        view(repository / "scenes" / "cornell.toml", host=host)
+
+
 def test_tokens_are_long_and_differ():
     tokens = {new_token() for _ in range(100)}
     assert len(tokens) == 100

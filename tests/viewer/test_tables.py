@@ -59,7 +59,48 @@ def test_what_is_offered_renders_and_what_is_refused_has_a_reason():
         assert all(refused.values())
 
 
+def test_a_value_outside_the_usual_range_widens_it():
+    (_, kind, (low, high, _), value), *_ = choices_of({"kind": "dielectric", "n": 0.2})
+    assert (kind, low, high, value) == ("number", 0.2, 4.0, 0.2)
+
+
+@pytest.mark.parametrize(
+    "choice",
+    [
+        {"technique": "pathh"},
+        {"illumination": "lambert"},
+        {"technique": "radiosity", "illumination": "phong"},
+    ],
+)
+def test_a_choice_that_cannot_be_is_refused_at_once(repository, choice):
+    with pytest.raises(UsageError):
+        State.of(repository / "scenes" / "cornell.toml", **choice)
+
+
+def test_a_camera_with_a_lens_can_be_turned(repository):
+    from illuminant.viewer.camera import scene_camera
+
+    state = State.of(repository / "scenes" / "crystal-ball.toml")
+    own = state.scene.description["camera"]
+    turned = scene_camera(own, [1, 0, 0, 0], [0.0, 1.0, 2.0], 0.8, (64, 48), 2.0)
+    found = state.scene.replace(camera=turned)
+    assert found.description["camera"]["lens"] == own["lens"]
+    assert found.description["camera"]["shutter"] == own["shutter"]
+    again = found.replace(camera={"size": [32, 24]}).description["camera"]
+    assert again["lens"]["radius"] == pytest.approx(own["lens"]["radius"])
+    assert found.core() is not None
+
+
+def test_names_of_materials_are_no_files(repository, tmp_path):
+    from illuminant.viewer.tables import relocate
+
+    (tmp_path / "white").write_text("")
+    (tmp_path / "white.csv").write_text("")
+    tables = {"objects": [{"material": "white", "name": "white.csv"}], "reflectance": "white.csv"}
+    relocate(tables, tmp_path, lambda file: file.with_name("moved.csv"))
+    assert tables["objects"][0]["material"] == "white"
+    assert tables["reflectance"].endswith("moved.csv")
+
+
 def test_a_scene_that_is_no_file_has_no_tables(repository):
-    scene = load(repository / "scenes" / "cornell.toml")
-    scene.path = None
-    assert State.of(scene).tables == {}
+    assert State.of(load(repository / "scenes" / "cornell.toml")).tables == {}

@@ -91,7 +91,8 @@ def scene_camera(
     turn = rotation(wxyz)
     eye = [float(v) for v in position]
     target = [e + distance * float(d) for e, d in zip(eye, turn[:, 2], strict=True)]
-    camera = {key: one for key, one in own.items() if key != "crop"}
+    # A camera that a person holds does not move by itself.
+    camera = {key: one for key, one in own.items() if key not in ("crop", "end")}
     return camera | {
         "eye": eye,
         "target": target,

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import shlex
+import threading
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from illuminant.viewer.session import Session
 
 __all__ = ["command", "image", "received", "scene", "solution", "spectrum"]
+
+LOCK = threading.RLock()
+"""Two pages that keep at once get different names."""
 
 MOST_BYTES = 1_000_000
 """Of a file that a page sends."""
@@ -33,8 +37,8 @@ def image(session: Session) -> list[Path]:
     from dataclasses import replace
 
     frame = session.frame
-    if frame is None:
-        raise UsageError("There is no picture yet.")
+    if frame is None or frame.preview:
+        raise UsageError("There is no whole picture yet: wait a moment.")
     look = replace(session.state.look, exposure=session.state.exposure)
     files = [_free(session, "view", ".png"), _free(session, "view", ".exr")]
     frame.image.save(files[0], look=look)

@@ -40,6 +40,7 @@ class Reading:
         wavelengths_nm, radiance: the spectrum, W·sr⁻¹·m⁻²·nm⁻¹.
         xyz: absolute; Y is the luminance in cd/m².
         illuminance: of the surface, lx, where it is diffuse; else None.
+        by: the technique and the wavelengths that were read.
         delta_e: ΔE00 between what the scene sends and what the display shows; None without an exposure.
     """
 
@@ -52,6 +53,7 @@ class Reading:
     xyz: tuple[float, float, float]
     illuminance: float | None
     delta_e: float | None
+    by: str
 
     @property
     def luminance(self) -> float:
@@ -115,8 +117,9 @@ def read(
         wavelengths_nm=wavelengths,
         radiance=radiance,
         xyz=_triple(xyz),
-        illuminance=None if first is None else _illuminance(state, first["material"], wavelengths, radiance),
+        illuminance=None if first is None else _illuminance(state, first, wavelengths, radiance),
         delta_e=_shown_error(state, xyz),
+        by=f"{job.settings.technique} × {job.settings.illumination}, {len(wavelengths)} wavelengths",
     )
 
 
@@ -125,14 +128,17 @@ def _triple(values: Any) -> tuple[float, float, float]:
     return a, b, c
 
 
-def _illuminance(state: State, material: str, wavelengths: Array, radiance: Array) -> float | None:
-    """Of a diffuse surface, lx."""
+def _illuminance(state: State, seen: Any, wavelengths: Array, radiance: Array) -> float | None:
+    """Of a diffuse surface, lx; None where the light is not all reflected: a lamp, or air that scatters."""
     import numpy as np
 
     from illuminant.color import spectra_to_xyz
 
     description = state.scene.description
-    surface = next(one["surface"] for one in description["materials"] if one["name"] == material)
+    shines = any(thing["name"] == seen["object"] and thing["emission"] for thing in description["objects"])
+    if shines or description["atmosphere"] or description["medium"]:
+        return None
+    surface = next(one["surface"] for one in description["materials"] if one["name"] == seen["material"])
     if surface["kind"] != "diffuse" or not isinstance(surface["reflectance"], int) or len(wavelengths) < 100:
         return None
     curve = description["curves"][surface["reflectance"]]

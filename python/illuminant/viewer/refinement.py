@@ -121,6 +121,10 @@ class Refiner:
             self._condition.notify()
             return self._number
 
+    def solution_for(self, state: State) -> Solution | None:
+        """The solution at hand, if it is that of a state."""
+        return self.solution if self._solved(state) else None
+
     def adopt(self, solution: Solution, state: State) -> None:
         """Take over a solution that was found elsewhere for a state."""
         with self._condition:
@@ -293,18 +297,25 @@ class Refiner:
             )
         except Exception as error:
             self._say(str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}", True)
-            self._solving = None
+            self._solved_or_not(None, state)
             return
+        self._solved_or_not(found, state)
+
+    def _solved_or_not(self, found: Solution | None, state: State) -> None:
+        """Keep a solution, and let the latest request go on if it waits for one; it may be of another state by now."""
         with self._condition:
             self._solving = None
             if self._closed:
                 return
-            self.solution, self._solved_for = found, state
-            self.solved += 1
-            if self._wanted is None and self._latest is not None and not self._closed:
-                # What was asked for last, which may be another state by now, goes on.
+            if found is not None:
+                self.solution, self._solved_for = found, state
+                self.solved += 1
+            latest = self._latest
+            if latest is None or self._wanted is not None or latest.state.technique not in SOLVED:
+                return
+            if found is not None or latest.state is not state:
                 self._number += 1
-                self._wanted = replace(self._latest, number=self._number)
+                self._wanted = replace(latest, number=self._number)
                 self._condition.notify()
 
     # --- frames --------------------------------------------------------------------------------------------------

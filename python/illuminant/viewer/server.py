@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import io
 import os
+import socket
 import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from illuminant.errors import Error, MachineError, UsageError
+from illuminant.errors import DataError, MachineError, SceneError, UsageError
 from illuminant.viewer.camera import vertical_rad
-from illuminant.viewer.guard import LOOPBACK, Guard, new_token
+from illuminant.viewer.guard import Guard, new_token
 from illuminant.viewer.state import State
 
 if TYPE_CHECKING:
@@ -59,15 +61,19 @@ class Viewer:
         self.state: State | None = None
         try:
             self.state = State.of(scene if not isinstance(scene, os.PathLike) else Path(scene), **choices)
-        except Error as error:
+        except (SceneError, DataError) as error:
+            if not isinstance(scene, (str, os.PathLike)) or not Path(scene).is_file():
+                raise
             self.problem = str(error)
         self.sessions: dict[int, Session] = {}
         self._token = new_token()
         self._guard = Guard(self._token, host, port)
-        self._server = self._listen(host, port)
+        self._server = self._listen(host, _free_port(host, port))
         self.port: int = self._server.get_port()
         self._guard.port = self.port
-        shown = "localhost" if host in LOOPBACK else host
+        shown = (
+            socket.gethostname() if host in ("0.0.0.0", "::", "") else f"[{host}]" if ":" in host else host
+        )
         self.url = f"http://{shown}:{self.port}/?token={self._token}"
         self._server.gui.configure_theme(
             control_layout="floating",
@@ -88,10 +94,7 @@ class Viewer:
         from viser import _messages
 
         with _STARTING, _guarded(self._guard), contextlib.redirect_stdout(io.StringIO()):
-            try:
-                server = viser.ViserServer(host=host, port=port, label="illuminant", verbose=False)
-            except OSError as error:
-                raise MachineError(f"{host}:{port} cannot be listened on: {error}.") from error
+            server = viser.ViserServer(host=host, port=port, label="illuminant", verbose=False)
         # The page can ask for a tunnel that shows it to the whole internet.
         for message in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):
             server._websock_server.unregister_handler(message)
@@ -144,8 +147,38 @@ class Viewer:
         self.stop()
 
     def _repr_html_(self) -> str:
-        """The page inside a notebook."""
-        return f'<iframe src="{self.url}" width="100%" height="640" style="border:0"></iframe>'
+        """The page inside a notebook: under the notebook's own host name, or a browser would keep the cookie back."""
+        frame = f"illuminant-{self.port}"
+        address = f"'http://' + location.hostname + ':{self.port}/?token={self._token}'"
+        return (
+            f'<iframe id="{frame}" width="100%" height="640" style="border:0"></iframe>'
+            f"<script>document.getElementById('{frame}').src = {address}</script>"
+        )
+
+
+def _free_port(host: str, port: int) -> int:
+    """The port, or the next one that is free; viser would try a thousand, and wait for ever if none can be had.
+
+    Raises:
+        UsageError: there is no such host.
+        MachineError: the address is not one of this machine, or no port is free.
+    """
+    try:
+        family, *_, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+    except (OSError, UnicodeError) as error:
+        raise UsageError(f"--host {host}: there is no such address.") from error
+    for candidate in [0] if port == 0 else range(port, min(port + 100, 65536)):
+        with socket.socket(family) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                probe.bind((address[0], candidate))
+            except OSError as error:
+                if error.errno == errno.EADDRINUSE:
+                    continue
+                reason = (error.strerror or str(error)).lower()
+                raise MachineError(f"{host}:{candidate} cannot be listened on: {reason}.") from error
+            return int(probe.getsockname()[1])
+    raise MachineError(f"{host}: no port from {port} on is free.")
 
 
 @contextlib.contextmanager

@@ -56,7 +56,7 @@ class Session:
         self._lines: Any = None
         self._depth: tuple[Any, NDArray[np.float32]] | None = None
         self._exposure_from = 0 if state.look.exposure is None else ENOUGH_SAMPLES
-        self._lock = threading.RLock()
+        self.lock = threading.RLock()
         self._shown_camera: Any = None
         self.refiner = Refiner(self._deliver, self.say)
         self._second: Refiner | None = None
@@ -118,19 +118,19 @@ class Session:
 
     def change(self, state: State) -> None:
         """Show another state."""
-        with self._lock:
+        with self.lock:
             self.state = state
         self.ask()
 
     def look_at(self, state: State) -> None:
         """Show the same light in another look."""
-        with self._lock:
+        with self.lock:
             self.state = state
         self.show()
 
     def ask(self) -> None:
         """Render what is chosen, from where the page's camera stands."""
-        with self._lock:
+        with self.lock:
             camera = self._shown_camera = self.camera()
             self.refiner.ask(self.state, camera)
             if self.held is not None and self._second is not None:
@@ -138,7 +138,7 @@ class Session:
 
     def hold(self, wanted: bool) -> None:
         """Hold the present setting, to be seen beside what is chosen from now on; or let it go."""
-        with self._lock:
+        with self.lock:
             self.held = self.state if wanted else None
             self.held_frame = None
             if wanted and self._second is None:
@@ -146,7 +146,7 @@ class Session:
         self.ask()
 
     def _deliver(self, frame: Frame) -> None:
-        with self._lock:
+        with self.lock:
             self.frame = frame
             if self._exposure_from < ENOUGH_SAMPLES:
                 # A few noisy pixels say little of what is white: a better picture sets the exposure again.
@@ -157,13 +157,13 @@ class Session:
         self.panels.progress(frame)
 
     def _deliver_held(self, frame: Frame) -> None:
-        with self._lock:
+        with self.lock:
             self.held_frame = frame
         self.show()
 
     def show(self) -> None:
         """Send the picture as it is now, with all that is drawn into it."""
-        with self._lock:
+        with self.lock:
             frame, other, state = self.frame, self.held_frame, self.state
             if frame is None:
                 return
@@ -171,9 +171,11 @@ class Session:
             if other is not None and self.held is not None:
                 held = replace(self.held, look=state.look, stops=state.stops)
                 codes = self._beside(other, held, frame, codes)
-        far = self._wire(frame) if self.wires != WIRES[0] or self._lines is not None else None
-        self.client.scene.set_background_image(codes, format="png", depth=far)
-        self.sent = frame
+            wired = (self.wires != WIRES[0] or self._lines is not None) and not frame.preview
+            far = self._wire(frame) if wired else None
+            # Sent under the lock, so that an older picture never comes last.
+            self.client.scene.set_background_image(codes, format="png", depth=far)
+            self.sent = frame
 
     def _beside(self, other: Frame, held: State, frame: Frame, codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """The held setting at the left and the chosen one at the right, or the map of their difference."""
@@ -210,7 +212,7 @@ class Session:
     def _wire(self, frame: Frame) -> NDArray[np.float32] | None:
         """Draw the edges that are chosen, if there is a solution; how far the picture is away, which hides some."""
         solution = self.refiner.solution
-        with self._lock:
+        with self.lock:
             wanted = (self.wires if solution is not None else WIRES[0], self.refiner.solved)
             if wanted != self._wired:
                 self._wired = wanted
@@ -225,7 +227,7 @@ class Session:
             if self._lines is None:
                 return None
             camera = frame.request.camera
-            if self._depth is None or self._depth[0] is not camera:
+            if self._depth is None or self._depth[0] != camera:
                 self._depth = camera, depth(frame.request.state.scene, camera)
             return self._depth[1]
 
@@ -236,23 +238,23 @@ class Session:
     # --- reading -------------------------------------------------------------------------------------------------
 
     def _clicked(self, event: Any) -> None:
-        x, y = event.screen_pos[0] if isinstance(event.screen_pos[0], (tuple, list)) else event.screen_pos
+        x, y = event.screen_pos
         self.read(float(x), float(y))
 
     def read(self, across: float, down: float) -> None:
         """Read the point at fractions of width and height."""
         from illuminant.viewer.reading import read
 
-        with self._lock:
+        with self.lock:
             camera, state = self._shown_camera, self.state
         width, height = camera["size"]
         pixel = min(int(across * width), width - 1), min(int(down * height), height - 1)
         try:
-            found = self.last_reading = read(state, camera, pixel, self.refiner.solution)
+            found = self.last_reading = read(state, camera, pixel, self.refiner.solution_for(state))
             self.panels.measure.show(found)
             self.panels.material.select(found.material)
-        except Error as error:
-            self.say(str(error), True)
+        except Exception as error:
+            self.say(str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}", True)
 
     # --- end -----------------------------------------------------------------------------------------------------
 

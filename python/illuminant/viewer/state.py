@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from illuminant.display.look import Look
-from illuminant.errors import SceneError
+from illuminant.errors import SceneError, UsageError
 from illuminant.viewer.tables import relocate
 
 if TYPE_CHECKING:
@@ -59,6 +59,7 @@ class State:
 
         Raises:
             SceneError: the scene has mistakes.
+            UsageError: a choice is not known, or does not go with another.
         """
         from illuminant.scene import Scene
 
@@ -69,7 +70,11 @@ class State:
             if loaded.render_defaults.get(key)
         }
         given = {key: one for key, one in choices.items() if one is not None}
-        return cls(loaded, _tables(loaded.path), **defaults | given)
+        # A scene in memory may differ from the file that it came from.
+        tables = {} if isinstance(scene, Scene) else _tables(str(scene))
+        made = cls(loaded, tables, **defaults | given)
+        _check(made)
+        return made
 
     def with_tables(
         self,
@@ -110,6 +115,21 @@ def choices(technique: str) -> tuple[dict[str, str], dict[str, str]]:
         if pair.technique == technique:
             (refused if pair.verdict == "refused" else sensible)[pair.illumination] = pair.reason
     return sensible, refused
+
+
+def _check(state: State) -> None:
+    """Refuse a technique and a model that are not known, or not together."""
+    from illuminant.comparison import pairs
+
+    for option, name in (("technique", state.technique), ("illumination", state.illumination)):
+        known = list(dict.fromkeys(getattr(pair, option) for pair in pairs()))
+        if name not in known:
+            raise UsageError(f"--{option} {name}: known are {', '.join(known)}.")
+    _, refused = choices(state.technique)
+    if state.illumination in refused:
+        raise UsageError(
+            f"{state.technique} does not go with {state.illumination}: {refused[state.illumination]}."
+        )
 
 
 def _tables(path: str | None) -> dict[str, Any]:

@@ -71,26 +71,28 @@ def choices_of(table: Mapping[str, Any]) -> list[tuple[str, str, Any, Any]]:
     def choice(key: str, values: list[str], value: str) -> None:
         found.append((key, "choice", list(dict.fromkeys([value, *values])), value))
 
+    def number(key: str, span: tuple[float, float, float], value: float) -> None:
+        low, high, step = span
+        found.append((key, "number", (min(low, value), max(high, value), step), value))
+
     for key in _CURVES:
         if isinstance(table.get(key), str):
             choice(key, spectra.names("reflectance"), table[key])
         elif isinstance(table.get(key), (int, float)):
-            found.append((key, "number", (0.0, 1.0, 0.01), float(table[key])))
+            number(key, (0.0, 1.0, 0.01), float(table[key]))
     if isinstance(table.get("metal"), str):
         choice("metal", [name.removesuffix(".k") for name in spectra.names("k")], table["metal"])
     if isinstance(table.get("medium"), str):
         metals = spectra.names("k")
         media = [name.removesuffix(".n") for name in spectra.names("n")]
         choice("medium", [name for name in media if f"{name}.k" not in metals], table["medium"])
-    for key in ("n", "k"):
+    for key, span in (("n", (1.0, 4.0, 0.01)), ("k", (0.0, 10.0, 0.05))):
         if isinstance(table.get(key), (int, float)):
-            found.append(
-                (key, "number", (1.0, 4.0, 0.01) if key == "n" else (0.0, 10.0, 0.05), float(table[key]))
-            )
+            number(key, span, float(table[key]))
     if table.get("kind") in ("conductor", "dielectric", "coated"):
         choice("finish", [NO_FINISH, *finishes.names()], table.get("finish") or NO_FINISH)
         if isinstance(table.get("roughness", 0.0), (int, float)) and "finish" not in table:
-            found.append(("roughness", "number", (0.0, 1.0, 0.01), float(table.get("roughness", 0.0))))
+            number("roughness", (0.0, 1.0, 0.01), float(table.get("roughness", 0.0)))
     if table.get("kind") == "named":
         base = str(table["name"]).partition(",")[0]
         values = [f"{base}, {name}" for name in finishes.names()]
@@ -125,7 +127,7 @@ def relocate(node: Any, folder: Path, named: Callable[[Path], Path]) -> None:
     for key, value in list(pairs):
         if not isinstance(value, str):
             relocate(value, folder, named)
-        elif _is_file(folder / value):
+        elif key != "material" and Path(value).suffix and _is_file(folder / value):
             node[key] = named(folder / value).as_posix()
 
 

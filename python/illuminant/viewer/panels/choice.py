@@ -45,9 +45,13 @@ def answering(session: Session, act: Callable[[], object]) -> Callable[[Any], No
     """A callback for a control: it acts, and a mistake becomes a sentence in the page."""
 
     def answer(_: Any) -> None:
-        try:
-            act()
-        except Error as error:
-            session.say(str(error), True)
+        # viser calls from many threads: one choice after the other, or an older one could come last.
+        with session.lock:
+            try:
+                act()
+            except Error as error:
+                session.say(str(error), True)
+            except Exception as error:  # a silent page helps nobody
+                session.say(f"{type(error).__name__}: {error}", True)
 
     return answer

@@ -35,11 +35,16 @@ class KeepPanel:
             self._told = gui.add_markdown("")
 
     def _write(self, write: Callable[[Session], list[Path]]) -> None:
+        from illuminant.viewer.keeping import LOCK
+
         try:
-            files = write(self._session)
+            with LOCK:
+                files = write(self._session)
             self._told.content = "Written: " + ", ".join(f"`{file.name}`" for file in files)
         except Error as error:
             self._told.content = f"**{error}**"
+        except Exception as error:  # the scene file may have been edited meanwhile
+            self._told.content = f"**{type(error).__name__}: {error}**"
 
     def _command(self) -> None:
         from illuminant.viewer.keeping import command

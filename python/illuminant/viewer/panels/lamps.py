@@ -63,8 +63,8 @@ class LampPanel:
             files.append(str(received(self._session, upload.value.content)))
             if UPLOADED not in spectrum.options:
                 spectrum.options = [*spectrum.options, UPLOADED]
+            spectrum.value = OWN  # setting a value calls back, but only when it is another one
             spectrum.value = UPLOADED
-            chosen()
 
         if spectrum is not None:
             upload.on_upload(answering(self._session, sent))

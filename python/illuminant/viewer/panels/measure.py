@@ -61,6 +61,7 @@ class MeasurePanel:
             rows.append(f"ΔE00 of what the display shows: {found.delta_e:.2f}")
         if len(found.wavelengths_nm) < 100:
             rows.append(f"spectrum at the {len(found.wavelengths_nm)} wavelengths of the solution")
+        rows.append(f"by {found.by}")
         self._told.content = "\n\n".join(rows)
         self._spectrum.data = (found.wavelengths_nm, 1000.0 * found.radiance)
         self._spectrum.visible = True

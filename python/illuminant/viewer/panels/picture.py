@@ -44,10 +44,11 @@ class PicturePanel:
         technique = picked(self._technique)
         sensible, _ = choices(technique)
         model = self._model.value if self._model.value in sensible else next(iter(sensible))
+        # First the choice: setting the list calls back, and must find nothing to change.
+        self._chosen(technique=technique, illumination=model)
         self._model.options = list(sensible)
         self._model.value = model
         self._name_refused()
-        self._chosen(technique=technique, illumination=model)
 
     def _name_refused(self) -> None:
         _, refused = choices(self._technique.value)
