@@ -71,6 +71,7 @@ site: .venv/.core build/atlas/index.md ## Build the documentation site in build/
 build/atlas/index.md: $(shell find python/illuminant/atlas -name '*.py') .venv/.core
 	@echo "illuminant: drawing the atlas (up to a quarter of an hour)"
 	@rm -rf build/atlas
+	@mkdir -p build
 	@$(BIN)/illuminant atlas --all -o build/atlas > /dev/null
 
 wheel: .venv/.core ## Build the abi3 wheel in dist/
