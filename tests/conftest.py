@@ -1,5 +1,6 @@
 """What every test may use: the folders of this repository, the command, and one setting for property tests."""
 
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -7,6 +8,8 @@ from pathlib import Path
 
 import hypothesis
 import pytest
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 # A failure must come back on the next run, and a busy machine must not look like a slow property.
 hypothesis.settings.register_profile("illuminant", derandomize=True, deadline=None)
@@ -23,6 +26,15 @@ def repository() -> Path:
 def scenes(repository: Path) -> Path:
     """The folder of the scenes that ship with the repository."""
     return repository / "scenes"
+
+
+@pytest.fixture(scope="session")
+def chromium() -> str:
+    """A browser, found on the path (Debian: apt-get install chromium); where there is none, tests skip."""
+    found = next((path for name in BROWSERS if (path := shutil.which(name))), None)
+    if found is None:
+        pytest.skip("no browser: there is no chromium on the path")
+    return found
 
 
 @pytest.fixture(scope="session")

@@ -178,8 +178,9 @@ class Job:
             self.core_scene = self.scene.core(self.settings.threads)
             refuse(self.scene, words=())
             # What the lanes of kept spectra mean is fitted with them.
-            own = like is None or self.settings.keep_spectra or bool(self.settings.develop_for)
-            make: Any = core().Render if own or like is None else like.core_render.again
+            if self.settings.keep_spectra or self.settings.develop_for:
+                like = None
+            make: Any = core().Render if like is None else like.core_render.again
             self.core_render: Any = make(self.core_scene, self.settings.to_core(), solution)
         except Error:
             raise

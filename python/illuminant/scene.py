@@ -237,12 +237,10 @@ class Scene:
                 if parts["camera"] is not None:
                     parts["camera"] |= {key: camera[key] for key in _RESOLVED if camera.get(key) is not None}
                 back = resolver.unit_m
-                kept = {key: one for key, one in frame.get("camera", {}).items() if key in _OF_THE_LENS}
-                frame["camera"] = (
-                    (kept if camera.get("lens") is not None else {})
-                    | given
-                    | {key: [x / back for x in given[key]] for key in ("eye", "target")}
-                )
+                stays = ("shutter", *(_OF_THE_LENS if camera.get("lens") is not None else ()))
+                kept = {key: one for key, one in frame.get("camera", {}).items() if key in stays}
+                places = {key: [x / back for x in given[key]] for key in ("eye", "target")}
+                frame["camera"] = kept | given | places
             else:
                 frame["camera"] = frame.get("camera", {}) | camera
                 parts["camera"] = resolver.camera(frame["camera"])
@@ -448,7 +446,7 @@ class Scene:
 _RESOLVED = ("shutter", "lens", "end")
 """Keys of a resolved camera that the scene file writes otherwise."""
 
-_OF_THE_LENS = ("focal_length_mm", "f_number", "focus_distance", "blades", "blades_turned", "shutter")
+_OF_THE_LENS = ("focal_length_mm", "f_number", "focus_distance", "blades", "blades_turned")
 
 
 def load(path: str | os.PathLike[str]) -> Scene:

@@ -3,7 +3,6 @@
 It is found as `chromium` on the path (Debian: apt-get install chromium); where there is none, the test is skipped.
 """
 
-import shutil
 import subprocess
 from pathlib import Path
 
@@ -14,7 +13,6 @@ import pytest
 from illuminant.display.displays import named
 from illuminant.display.picture import Picture
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 DISPLAYS = ("sRGB", "Display P3", "Adobe RGB")
 
 PATCH = 16
@@ -26,11 +24,8 @@ CODES[0] = np.linspace(0, 255, 8).round()[:, None]
 
 
 @pytest.fixture(scope="module")
-def seen(tmp_path_factory: pytest.TempPathFactory) -> dict[str, np.ndarray]:
+def seen(chromium: str, tmp_path_factory: pytest.TempPathFactory) -> dict[str, np.ndarray]:
     """What the browser makes of the picture for each display: codes (5, 8, 3) of sRGB in the middle of the patches."""
-    browser = next((found for name in BROWSERS if (found := shutil.which(name))), None)
-    if browser is None:
-        pytest.skip("no browser: there is no chromium on the path")
     folder: Path = tmp_path_factory.mktemp("browser")
     big = np.repeat(np.repeat(CODES, PATCH, axis=0), PATCH, axis=1)
     rows = ["<!doctype html><style>body{margin:0;background:black}img{display:block}</style>"]
@@ -40,7 +35,7 @@ def seen(tmp_path_factory: pytest.TempPathFactory) -> dict[str, np.ndarray]:
     (folder / "page.html").write_text("\n".join(rows))
     done = subprocess.run(
         [
-            browser,
+            chromium,
             "--headless",
             "--no-sandbox",
             "--disable-gpu",

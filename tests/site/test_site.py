@@ -17,7 +17,6 @@ from typer.main import get_command
 import illuminant
 from illuminant.cli import app, run
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 PLATES = ("2.6", "table 2.1")
 """Plates of the atlas that take no time."""
 
@@ -199,17 +198,14 @@ def test_a_dead_link_of_the_manual_is_one_sentence(repository, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def shown(site: Path, tmp_path_factory: pytest.TempPathFactory):
+def shown(site: Path, chromium: str, tmp_path_factory: pytest.TempPathFactory):
     """What a browser without a network makes of a page of the site: its document after all programs have run."""
-    browser = next((found for name in BROWSERS if (found := shutil.which(name))), None)
-    if browser is None:
-        pytest.skip("no browser: there is no chromium on the path")
     profile = tmp_path_factory.mktemp("profile")
 
     def document(page: Path) -> str:
         options = ["--headless", "--no-sandbox", "--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND"]
         options += [f"--user-data-dir={profile}", "--virtual-time-budget=10000", "--dump-dom", page.as_uri()]
-        return subprocess.run([browser, *options], capture_output=True, text=True, timeout=100).stdout
+        return subprocess.run([chromium, *options], capture_output=True, text=True, timeout=100).stdout
 
     return document
 

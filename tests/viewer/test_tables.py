@@ -91,6 +91,13 @@ def test_a_camera_with_a_lens_can_be_turned(repository):
     assert found.core() is not None
 
 
+def test_a_turned_camera_keeps_its_shutter_without_a_lens(repository):
+    scene = load(repository / "scenes" / "cornell.toml").replace(camera={"shutter": [0.0, 0.5]})
+    turned = scene.replace(camera=dict(scene.description["camera"]))
+    assert turned.description["camera"]["shutter"] == [0.0, 0.5]
+    assert turned.replace(camera={"size": [8, 8]}).description["camera"]["shutter"] == [0.0, 0.5]
+
+
 def test_names_of_materials_are_no_files(repository, tmp_path):
     from illuminant.viewer.tables import relocate
 

@@ -16,9 +16,6 @@ if TYPE_CHECKING:
 __all__ = ["MODES", "Composed", "compose", "difference_map", "enlarged", "false_colour", "split"]
 
 MODES = ("picture", "luminance in false colours", "colours out of gamut marked")
-DECADES = 3.0
-"""How far below the brightest the scale of false colours begins, in powers of ten."""
-
 MARK = (255, 0, 255)
 
 
@@ -74,9 +71,9 @@ def false_colour(luminance: NDArray[np.floating[Any]]) -> tuple[Codes, tuple[flo
     import numpy as np
     from matplotlib import colormaps
 
-    positive = luminance[luminance > 0]
-    top = float(np.percentile(positive, 99.5)) if positive.size else 1.0
-    low = top / 10**DECADES
+    from illuminant.plots.luminance import DECADES, ends
+
+    low, top = ends(luminance)
     place = np.log10(np.maximum(luminance, low) / low) / DECADES
     return np.asarray(colormaps["viridis"](np.clip(place, 0, 1), bytes=True)[..., :3]), (low, top)
 

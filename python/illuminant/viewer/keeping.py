@@ -82,10 +82,20 @@ def spectrum(session: Session) -> list[Path]:
     found = session.last_reading
     if found is None:
         raise UsageError("Nothing has been read yet: click a point.")
-    lines = ["wavelength_nm,radiance_w_sr_m2_nm"]
-    lines += [f"{nm:g},{value:.8g}" for nm, value in zip(found.wavelengths_nm, found.radiance, strict=True)]
+    from illuminant import spectrum_file
+    from illuminant.spectrum import Spectrum
+
+    name = f"{found.thing or 'surroundings'}, pixel {found.pixel[0]}, {found.pixel[1]}"
+    curve = Spectrum(
+        name,
+        tuple(found.wavelengths_nm.tolist()),
+        tuple(found.radiance.tolist()),
+        "zero",
+        unit="W sr-1 m-2 nm-1",
+        quantity="emission",
+    )
     target = _free(session, "spectrum", ".csv")
-    output.write_bytes(target, ("\n".join(lines) + "\n").encode())
+    spectrum_file.write(target, curve)
     return [target]
 
 

@@ -2,44 +2,19 @@
 
 from __future__ import annotations
 
-from illuminant.atlas.plate import Check, Plate, Sheet
+from illuminant.atlas.plate import Plate, Sheet
 
 
 def draw(quick: bool) -> Sheet:
     """A hemi-cube, its top shaded by delta form factors; their sums at several resolutions."""
-    import numpy as np
+    from illuminant.atlas.appendices.hemicube_face import face_sheet
 
-    from illuminant.atlas.appendices.hemicube_face import RESOLUTION, draw_cell
-    from illuminant.atlas.chapter_4.hemicube import hemicube, point_to_polygon
-
-    figure, middle = draw_cell(True, (0.45, 0.55))
-    cells = hemicube(RESOLUTION)
-    own = cells.faces == 0
-    error = [abs(float(hemicube(n).delta.sum()) - 1.0) for n in (16, 32, 64)]
-    exact = point_to_polygon(np.array([[1, 1, 1], [-1, 1, 1], [-1, -1, 1], [1, -1, 1]], float))
-    share = float(hemicube(64).delta[hemicube(64).faces == 0].sum())
-    number = int(np.argmin(np.linalg.norm(cells.middles - middle, axis=1)))
-    x, y = middle[0], middle[1]
-    printed = float((2.0 / RESOLUTION) ** 2 / (x * x + y * y + 1.0) ** 2 / np.pi)
-    return Sheet(
-        picture=figure,
-        columns={
-            "x": cells.middles[own, 0],
-            "y": cells.middles[own, 1],
-            "z": cells.middles[own, 2],
-            "delta form factor": cells.delta[own],
-            "as printed, for intensities": np.pi * cells.delta[own],
-        },
-        checks=(
-            Check("sum over all cells of a cube of 64, less 1", error[2], at_most=1e-3),
-            Check("error at 32 cells along an edge over that at 64", error[1] / error[2], "", 3.5, 4.5),
-            Check("share of the top over its exact form factor", share / exact, "", 0.999, 1.001),
-            Check(
-                "drawn cell over eq IV.4 divided by π, less 1",
-                abs(float(cells.delta[number]) / printed - 1.0),
-                at_most=1e-12,
-            ),
-        ),
+    return face_sheet(
+        True,
+        (0.45, 0.55),
+        [[1, 1, 1], [-1, 1, 1], [-1, -1, 1], [1, -1, 1]],
+        "IV.4",
+        lambda cell: float(1.0 / (cell[0] ** 2 + cell[1] ** 2 + 1.0) ** 2),
     )
 
 

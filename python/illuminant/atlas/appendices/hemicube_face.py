@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from illuminant.atlas.plate import Check, Sheet
 from illuminant.plots.sketch import Sketch, View, new_sketches
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy as np
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-__all__ = ["draw_cell", "shades"]
+__all__ = ["draw_cell", "face_sheet", "shades"]
 
 RESOLUTION = 16
 
@@ -90,3 +93,53 @@ def draw_cell(top: bool, chosen: tuple[float, float]) -> tuple[Figure, NDArray[n
     sketch.label(middle, "$\\Delta A_q$", (26, -10) if top else (4, 19), color=red)
     sketch.frame()
     return figure, middle
+
+
+def face_sheet(
+    top: bool,
+    chosen: tuple[float, float],
+    face: list[list[int]],
+    equation: str,
+    printed: Callable[[NDArray[np.float64]], float],
+) -> Sheet:
+    """The drawing of a face, its delta form factors, and their sums against the exact form factor of that face.
+
+    Args:
+        top: the top, or the side towards x.
+        chosen: where in the face the drawn cell lies.
+        face: corners of the face.
+        equation: of the delta form factor, as the check names it.
+        printed: that form factor per area at the middle of a cell, times π, as the book prints it.
+    """
+    import numpy as np
+
+    from illuminant.atlas.chapter_4.hemicube import hemicube, point_to_polygon
+
+    figure, middle = draw_cell(top, chosen)
+    cells, fine = hemicube(RESOLUTION), hemicube(64)
+    number = 0 if top else 1
+    own = cells.faces == number
+    error = [abs(float(hemicube(n).delta.sum()) - 1.0) for n in (32, 64)]
+    share = float(fine.delta[fine.faces == number].sum()) / point_to_polygon(np.array(face, float))
+    drawn = int(np.argmin(np.linalg.norm(cells.middles - middle, axis=1)))
+    stated = (2.0 / RESOLUTION) ** 2 * printed(middle) / np.pi
+    return Sheet(
+        picture=figure,
+        columns={
+            **{axis: cells.middles[own, i] for i, axis in enumerate("xyz")},
+            "delta form factor": cells.delta[own],
+            "as printed, for intensities": np.pi * cells.delta[own],
+        },
+        checks=(
+            Check("sum over all cells of a cube of 64, less 1", error[1], at_most=1e-3),
+            Check("error at 32 cells along an edge over that at 64", error[0] / error[1], "", 3.5, 4.5),
+            Check(
+                f"share of the {'top' if top else 'side'} over its exact form factor", share, "", 0.999, 1.001
+            ),
+            Check(
+                f"drawn cell over eq {equation} divided by π, less 1",
+                abs(float(cells.delta[drawn]) / stated - 1.0),
+                at_most=1e-12,
+            ),
+        ),
+    )
