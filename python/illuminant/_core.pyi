@@ -509,8 +509,25 @@ class Render:
         """A render of a scene that differs in its camera, or by other settings, in the same wavelengths."""
     def solution(self) -> Solution | None:
         """The light between surfaces, if the technique has solved for it."""
-    def run(self, first: int, last: int, progress: Callable[[float], object] | None = None) -> bool:
-        """Renders samples first..last of every pixel; False when `progress` returned False and so cancelled it."""
+    def run(
+        self,
+        first: int,
+        last: int,
+        progress: Callable[[float], object] | None = None,
+        *,
+        tiles: tuple[int, int] | None = None,
+        from_lamps: bool = True,
+    ) -> bool:
+        """Renders samples first..last of every pixel, or of a range of tiles; False when `progress` returned False and
+        so cancelled it. `from_lamps`: with the paths from lamps of these samples, where the settings ask for such."""
+    def tiles(self) -> list[list[int]]:
+        """x₀, y₀, x₁, y₁ of each tile."""
+    def part(self) -> bytes:
+        """All that the film holds, for `join`."""
+    def join(self, part: bytes) -> None:
+        """Adds what another render of the same scene with the same settings has found; all of it, or ValueError."""
+    def clear(self) -> None:
+        """Forgets all samples, but nothing that was prepared for them."""
     def spectral_error(self) -> dict[str, Any]:
         """ΔE00 of the spectral sampling against 1 nm in this scene: mean, p95, max, the lamp and material of the
         largest, and how many pixels were `judged`."""

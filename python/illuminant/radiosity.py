@@ -279,6 +279,12 @@ class Solution:
             ImageError: the path cannot be an output.
             MachineError: the disk is full or fails.
         """
+        output.write_bytes(path, self.to_bytes())
+
+    def to_bytes(self) -> bytes:
+        """The solution as the bytes of such a file, for `from_bytes`."""
+        import io
+
         import numpy as np
 
         self._check_irradiance()
@@ -296,11 +302,14 @@ class Solution:
             **parts,
         }
 
-        def encode(temporary: os.PathLike[str]) -> None:
-            with open(temporary, "wb") as stream:
-                np.savez(stream, allow_pickle=False, **arrays)
+        stream = io.BytesIO()
+        np.savez(stream, allow_pickle=False, **arrays)
+        return stream.getvalue()
 
-        output.write(path, encode)
+    @property
+    def core_solution(self) -> Any:
+        """The solution as the core has it, for `Job`."""
+        return self._core
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Solution:
@@ -309,14 +318,25 @@ class Solution:
         Raises:
             DataError: the file cannot be read, or is no solution.
         """
+        name = os.fspath(path)
+        try:
+            with open(name, "rb") as stream:
+                content = stream.read()
+        except OSError as error:
+            raise DataError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}.") from error
+        return cls.from_bytes(content, name)
+
+    @classmethod
+    def from_bytes(cls, content: bytes, name: str = "the solution") -> Solution:
+        """As `load`, of the bytes of a file; `name` is what errors call it."""
+        import io
+
         import numpy as np
 
         from illuminant.scene import Scene
 
-        name = os.fspath(path)
         try:
-            # NumPy leaves a file that it opened itself open when the file is damaged.
-            with open(name, "rb") as stream, np.load(stream, allow_pickle=False) as data:
+            with np.load(io.BytesIO(content), allow_pickle=False) as data:
                 arrays = {key: data[key] for key in data.files}
             header = json.loads(arrays.pop("header").tobytes())
             if header["format"] != FORMAT:
@@ -336,9 +356,15 @@ class Solution:
                 raise ValueError("numbers that cannot be")
         except DataError:
             raise
-        except OSError as error:
-            raise DataError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}.") from error
-        except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile) as error:
+        except (
+            OSError,
+            ValueError,
+            KeyError,
+            TypeError,
+            AttributeError,
+            EOFError,
+            zipfile.BadZipFile,
+        ) as error:
             raise DataError(f"{name} is no solution of illuminant.") from error
         embree()
         try:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Callable
+from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -30,10 +32,11 @@ from illuminant.cli.options import (
 )
 
 if TYPE_CHECKING:
+    from illuminant.checkpoint import Checkpoint, Keeper
     from illuminant.image import Image, Saved
-    from illuminant.job import Job
+    from illuminant.job import Job, OnProgress
 
-__all__ = ["render"]
+__all__ = ["followed_by", "here", "render"]
 
 SHOWN = 3
 """How many dropped samples are named one by one."""
@@ -294,6 +297,23 @@ def render(
     dither: DitherName = "none",
     bits: Bits = 8,
     pipeline: Pipeline = "ideal",
+    checkpoint: Annotated[
+        Path | None,
+        typer.Option(
+            "--checkpoint",
+            metavar="FILE",
+            help="Keep here what is done, to go on from after a crash or Ctrl-C.",
+            show_default=False,
+        ),
+    ] = None,
+    every: Annotated[
+        str | None,
+        typer.Option("--every", metavar="TIME", help="Time between checkpoints (60s)."),
+    ] = None,
+    resume: Annotated[
+        bool,
+        typer.Option("--resume", help="Go on from the checkpoint, if there is one, to the same bits."),
+    ] = False,
     pixel: Annotated[
         str | None,
         typer.Option(
@@ -317,6 +337,7 @@ def render(
     Examples:
       illuminant render room.toml -o room.png
       illuminant render room.toml -o room.exr -o room.png --time 30s
+      illuminant render room.toml --samples 4096 --checkpoint room.ckpt --resume
     """
     from illuminant.errors import UsageError
     from illuminant.image import check_output
@@ -325,6 +346,7 @@ def render(
         raise UsageError(f"{scene} is a folder: name a scene file.")
     if pixel is None and sample is not None:
         raise UsageError(f"--sample {sample}: goes with --pixel, whose path it names.")
+    keeper, before = _checkpoints(checkpoint, every, resume)
     paths = list(dict.fromkeys(output or [Path(scene.stem + ".png")]))
     if pixel is None:
         for path in paths:
@@ -376,11 +398,13 @@ def render(
     with _Stop() as stop:
         from illuminant.job import Job
 
-        job = stop.watch(Job(scene, **options))
+        job = stop.watch(Job(scene, checkpoint=before, **options))
         if pixel is not None:
             _print_path(job, pixel, sample or 0, json)
         else:
-            _render(job, paths, {"look": look, "rgb": rgb, "half": half}, _again(scene, options), json)
+            _render(
+                job, paths, {"look": look, "rgb": rgb, "half": half}, _again(scene, options), json, keeper
+            )
 
 
 def _again(scene: Path, options: dict[str, Any]) -> str:
@@ -394,7 +418,28 @@ def _again(scene: Path, options: dict[str, Any]) -> str:
     return shlex.join(["illuminant", "render", str(scene), *given])
 
 
-def _render(job: Job, paths: list[Path], look: dict[str, Any], again: str, json: bool) -> None:
+def _checkpoints(
+    file: Path | None, every: str | None, resume: bool
+) -> tuple[Keeper | None, Checkpoint | None]:
+    """What keeps checkpoints, and the one to go on from."""
+    from illuminant.checkpoint import Keeper, resumed
+    from illuminant.cli.report import warning
+    from illuminant.errors import UsageError
+    from illuminant.settings import duration
+
+    if file is None:
+        for option, given in (("--every", every is not None), ("--resume", resume)):
+            if given:
+                raise UsageError(f"{option}: goes with --checkpoint FILE.")
+        return None, None
+    seconds = 60.0 if every is None else duration(every, "--every")
+    keeper = Keeper(file, seconds, lambda error: warning(f"No checkpoint: {error} The render goes on."))
+    return keeper, resumed(file, resume=resume)
+
+
+def _render(
+    job: Job, paths: list[Path], look: dict[str, Any], again: str, json: bool, keeper: Keeper | None
+) -> None:
     """Do the work, write the files, and say how it went."""
     from illuminant.cli.report import closing, emit_json, note, warning
     from illuminant.errors import Interrupted
@@ -406,7 +451,7 @@ def _render(job: Job, paths: list[Path], look: dict[str, Any], again: str, json:
     layers = settings.layers or settings.lamps or settings.keep_spectra
     if layers and not any(path.suffix.lower() == ".exr" for path in paths):
         warning("A PNG holds no layers: add -o FILE.exr to keep them.")
-    image = _work(job)
+    image = _work(job, keeper)
     interrupted = job.interrupted  # a request that comes later finds the work done
     if interrupted and image.statistics["most_samples"] == 0:
         raise Interrupted("no pixel holds a sample yet, so nothing was written.")
@@ -480,13 +525,24 @@ class _Stop:
             signal.signal(number, handler)
 
 
-def _work(job: Job) -> Image:
+def here(job: Job, progress: OnProgress | None, keeper: Keeper | None) -> None:
+    """Do the work of a job in this process."""
+    for _ in job.passes(progress, keeper):
+        pass
+
+
+followed_by: ContextVar[Callable[[Job, OnProgress | None, Keeper | None], None]] = ContextVar(
+    "followed_by", default=here
+)
+"""Who does the work of a job: this process, or the farm."""
+
+
+def _work(job: Job, keeper: Keeper | None) -> Image:
     """Render until the settings, or a request to stop, end it."""
     from illuminant.cli.report import progress_bar
 
     with progress_bar(Path(job.source).name) as bar:
-        for _ in job.passes(bar):
-            pass
+        followed_by.get()(job, bar, keeper)
         return job.image()
 
 

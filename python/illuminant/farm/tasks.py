@@ -1,0 +1,120 @@
+"""What runs on the workers of a farm.
+
+A worker keeps the last render that it was given work for, with its scene and all that was prepared, so that the next
+task of the same render begins at once. The scene comes by way of the cluster's object store, once to each node, and is
+fetched only by a worker that does not have it.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from illuminant.image import Image
+
+__all__ = ["Brought", "Work", "frame", "share"]
+
+Fetch = Callable[[Any], bytes]
+
+
+@dataclass(frozen=True)
+class Work:
+    """A render, for workers.
+
+    Attributes:
+        key: equal for renders whose samples may be joined.
+        settings: the core's (JSON).
+        threads: of a worker.
+        references: in a list, so that they are fetched only where they are needed: the scene, and the solution if
+            there is one.
+    """
+
+    key: str
+    settings: str
+    threads: int
+    references: list[Any]
+
+
+@dataclass(frozen=True)
+class Brought:
+    """What a task brought.
+
+    Attributes:
+        part: of the film (`Render.part`).
+        samples: over all pixels.
+        seconds: of the work itself, and of preparing the render where the worker did not have it.
+        prepared: seconds of the latter.
+        process: number of the worker's process.
+    """
+
+    part: bytes
+    samples: int
+    seconds: float
+    prepared: float
+    process: int
+
+
+_kept: dict[str, Any] = {}
+
+
+def _render(work: Work) -> Any:
+    """The core's render, as this worker has it or makes it now."""
+    if work.key not in _kept:
+        import ray
+
+        from illuminant.core import core, embree
+        from illuminant.scene import Scene
+
+        _kept.clear()  # before the next one, so that there is room for it
+        embree()
+        scene, *solution = ray.get(work.references)
+        core_scene = Scene.from_bytes(scene).core(work.threads)
+        solved = None
+        if solution:
+            from illuminant.radiosity import Solution
+
+            solved = Solution.from_bytes(solution[0]).core_solution
+        _kept[work.key] = core().Render(core_scene, work.settings, solved)
+    return _kept[work.key]
+
+
+def share(work: Work, samples: tuple[int, int], tiles: tuple[int, int] | None, from_lamps: bool) -> Brought:
+    """Take a range of samples of the pixels of some tiles; without tiles, of all.
+
+    Args:
+        work: which render.
+        samples: first and last.
+        tiles: first and last, by number.
+        from_lamps: whether the paths from lamps of these samples are followed.
+    """
+    began = time.perf_counter()
+    render = _render(work)
+    prepared = time.perf_counter() - began
+    render.clear()
+    render.run(*samples, tiles=tiles, from_lamps=from_lamps)
+    part = render.part()
+    taken = int(render.statistics()["samples"])
+    return Brought(part, taken, time.perf_counter() - began, prepared, os.getpid())
+
+
+def frame(references: list[Any], options: dict[str, Any]) -> Image:
+    """Render a whole scene, such as a frame of an animation.
+
+    Args:
+        references: the scene's bytes, in a list.
+        options: as for `illuminant.render`.
+    """
+    import ray
+
+    from illuminant.job import Job
+    from illuminant.scene import Scene
+
+    (scene,) = ray.get(references)
+    job = Job(Scene.from_bytes(scene), **options)
+    for _ in job.passes():
+        pass
+    return job.image()
