@@ -24,6 +24,7 @@ pub(super) fn repaint<M: IlluminationModel<LANES> + Prepare>(
     let mut found = old.clone();
     (found.reflectance, found.transmittance) =
         reflectance::of_sides(scene, &old.elements, &passes, old.samples, old.counted, cancel)?;
+    // Not from the old light: that would spare a product or two of ten, and the bits would depend on what was painted before.
     let problem = found.problem(settings.radiosity.tolerance);
     let solved = problem.solve_unless_cancelled(solver, cancel).map_err(|e| e.to_string())?;
     (found.irradiance, found.report.history) = (solved.irradiance, solved.history);
