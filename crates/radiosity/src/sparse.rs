@@ -130,7 +130,7 @@ impl Sparse {
         let count = sum.len();
         let row = self.row(row);
         let mut first = 0;
-        // A line of the cache while there are columns enough, then a register.
+        // A line of the cache while there are columns enough, then a register, then half of one.
         for wide in sum.chunks_exact_mut(2 * BLOCK) {
             if let Ok(wide) = wide.try_into() {
                 add_block::<{ 2 * BLOCK }>(row, right, (first, count), wide);
@@ -142,6 +142,12 @@ impl Sparse {
                 add_block::<BLOCK>(row, right, (first, count), wide);
             }
             first += BLOCK;
+        }
+        for wide in sum[first..].chunks_exact_mut(BLOCK / 2) {
+            if let Ok(wide) = wide.try_into() {
+                add_block::<{ BLOCK / 2 }>(row, right, (first, count), wide);
+            }
+            first += BLOCK / 2;
         }
         if first < count {
             let rest = &mut sum[first..];
@@ -261,11 +267,11 @@ mod tests {
             })
             .collect();
         let matrix = Sparse::from_rows(&rows, width);
-        for count in [1, 5, 8, 13, 16, 24] {
+        for count in [1, 3, 4, 5, 8, 15, 16, 24, 31] {
             let right = numbers(width * count);
             let expected = |row: usize, column: usize| {
-                // Four sums in turn for the columns of a register, one for those that are left over.
-                let several = if column < count / 8 * 8 { 4 } else { 1 };
+                // Four sums in turn for the columns of registers and halves, one for those that are left over.
+                let several = if column < count / 4 * 4 { 4 } else { 1 };
                 let mut sums = [0f32; 4];
                 for (at, (from, value)) in rows[row].iter().enumerate() {
                     let sum = &mut sums[at % several];
