@@ -36,7 +36,7 @@ from illuminant.errors import DataError, Error, MachineError, UsageError
 from illuminant.examination import WORDS, refuse
 from illuminant.film_memory import check_memory, check_shadow_maps
 from illuminant.image import Image
-from illuminant.settings import SOLVED, resolve
+from illuminant.settings import SOLVED, Settings, resolve
 
 if TYPE_CHECKING:
     import numpy as np
@@ -143,6 +143,8 @@ class Job:
         like: a job of the same scene with another camera or other settings, whose wavelengths are taken over: to fit
             them again takes longer than a first image of few pixels.
         checkpoint: of the same render, which goes on from there.
+        solve_by: solves for the light between surfaces in place of this process's threads: takes the scene and the
+            settings, and returns the core's solution, or None to leave it to them.
         options: as `illuminant.render`.
 
     Attributes:
@@ -159,6 +161,7 @@ class Job:
         solution: Any = None,
         like: Job | None = None,
         checkpoint: Checkpoint | None = None,
+        solve_by: Callable[[Scene, Settings], Any] | None = None,
         **options: Any,
     ) -> None:
         self.scene, self.source = _scene(scene)
@@ -190,6 +193,8 @@ class Job:
             # What the lanes of kept spectra mean is fitted with them.
             if self.settings.keep_spectra or self.settings.develop_for:
                 like = None
+            if solution is None and solve_by is not None and self.settings.technique in SOLVED:
+                solution = solve_by(self.scene, self.settings)
             make: Any = core().Render if like is None else like.core_render.again
             self.core_render: Any = make(self.core_scene, self.settings.to_core(), solution)
         except Error:

@@ -133,12 +133,16 @@ class Solution:
             scene = scene.replace(materials=materials)
         return self.of(scene)
 
-    def of(self, scene: Scene) -> Solution:
+    def of(self, scene: Scene, cancel: Any = None) -> Solution:
         """The solution for a scene that differs in spectra of lamps, materials, the camera, or where objects are.
 
         Only what changed is found again: nothing for lamps; the equations for paints; the form factors that see an
         object which moved (Baum et al. 1986). The number of rows of form factors that this took is
         `report["rows_again"]`.
+
+        Args:
+            scene: as it is now.
+            cancel: a `Cancel` of the core, which ends the work from another thread with the core's `Cancelled`.
 
         Raises:
             UsageError: the scene differs in more than that; solve it anew.
@@ -158,13 +162,13 @@ class Solution:
         moved = _moved(self.scene, scene)
         rows = 0
         if moved:
-            found, rows = found.moved(core_scene, settings, moved)
+            found, rows = found.moved(core_scene, settings, moved, cancel)
         if _paints(self.scene) != _paints(scene):
             if self.settings.technique == "hybrid" and _mirrors(self.scene) != _mirrors(scene):
                 raise UsageError(
                     "What mirrors or lets light through has changed, and with it form factors: solve anew."
                 )
-            found = found.repainted(core_scene, settings)
+            found = found.repainted(core_scene, settings, cancel)
         result = Solution(scene, self.settings, found, fitted_to=self._fitted_to)
         result.report["rows_again"] = rows
         return result
@@ -450,11 +454,12 @@ _OF_SOLUTION = (
 """The options by which a solution is made."""
 
 
-def solve(scene: Scene | str | os.PathLike[str], **options: Any) -> Solution:
-    """Solve for the light between the surfaces of a scene.
+def solve(scene: Scene | str | os.PathLike[str], *, cancel: Any = None, **options: Any) -> Solution:
+    """Solve for the light between the surfaces of a scene; Ctrl-C ends it.
 
     Args:
         scene: a `Scene`, or the path of a scene file.
+        cancel: a `Cancel` of the core, which ends the work from another thread with the core's `Cancelled`.
         options: as `illuminant.render` has them: `elements`, `patches`, `adaptive`, `form_factors`, `solver`,
             `light_samples`, `sampling`, `illumination`, `technique` (`radiosity`), `threads`.
 
@@ -478,7 +483,12 @@ def solve(scene: Scene | str | os.PathLike[str], **options: Any) -> Solution:
         raise UsageError(
             f"technique {settings.technique}: nothing is solved for; expected {' or '.join(SOLVED)}."
         )
-    job = Job(scene, **{field.name: getattr(settings, field.name) for field in dataclasses.fields(Settings)})
+
+    def solve_by(scene: Scene, settings: Settings) -> Any:
+        return core().Solution(scene.core(settings.threads), settings.to_core(), cancel)
+
+    chosen = {field.name: getattr(settings, field.name) for field in dataclasses.fields(Settings)}
+    job = Job(scene, solve_by=None if cancel is None else solve_by, **chosen)
     return Solution(scene, settings, job.core_render.solution())
 
 

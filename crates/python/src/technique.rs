@@ -3,6 +3,7 @@
 use crate::radiosity::PySolution;
 use crate::scene::PyScene;
 use illuminant_illumination::Illumination;
+use illuminant_radiosity::Cancel;
 use illuminant_sampling::Role;
 use illuminant_technique::pairs::{Pair, pair};
 use illuminant_technique::{
@@ -54,7 +55,9 @@ impl PyRender {
         let settings = self::settings(settings)?;
         let scene = Arc::clone(&scene.0);
         let solution = solution.map(|solution| Arc::clone(&solution.0));
-        let render = py.detach(|| Render::of(scene, settings, solution));
+        let cancel = Cancel::default();
+        let render =
+            interruptible(py, &cancel, || Render::unless_cancelled(scene, settings, solution, &cancel))?;
         Ok(Self(render.map_err(|e: RenderError| PyValueError::new_err(e.to_string()))?))
     }
 
@@ -306,6 +309,36 @@ impl PyRender {
         dict.set_item("spectrum", replay.spectrum)?;
         Ok(dict)
     }
+}
+
+/// Does work on another thread, and cancels it when Ctrl-C comes, which is then raised.
+pub(crate) fn interruptible<T: Send>(
+    py: Python<'_>,
+    cancel: &Cancel,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    let (sender, receiver) = std::sync::mpsc::channel();
+    let receiver = std::sync::Mutex::new(receiver);
+    std::thread::scope(|scope| {
+        let worker = scope.spawn(move || {
+            let result = work();
+            let _ = sender.send(());
+            result
+        });
+        let mut raised = None;
+        while !py.detach(|| wait(&receiver)) {
+            if raised.is_none() {
+                raised = py.check_signals().err();
+                if raised.is_some() {
+                    cancel.cancel();
+                }
+            }
+        }
+        let result = worker
+            .join()
+            .map_err(|_| pyo3::exceptions::PyRuntimeError::new_err("a thread of the core died"))?;
+        raised.map_or(Ok(result), Err)
+    })
 }
 
 /// Waits for the end of a run, a tenth of a second at most; whether it came.

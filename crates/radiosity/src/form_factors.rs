@@ -171,7 +171,14 @@ impl FormFactors {
     }
 
     /// The rows of sides. Those that are not begun when it is cancelled are empty.
-    fn of(elements: &Elements, sides: &[u32], geometry: &Geometry, method: Method, cancel: &Cancel) -> Self {
+    #[must_use]
+    pub fn of(
+        elements: &Elements,
+        sides: &[u32],
+        geometry: &Geometry,
+        method: Method,
+        cancel: &Cancel,
+    ) -> Self {
         let width = elements.patches.len();
         let looking = Looking::new(method);
         let cube = match method {

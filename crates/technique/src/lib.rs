@@ -34,7 +34,8 @@ pub use part::{Part, PartError};
 pub use passes::Replay;
 pub use path::{Counts, PathTracer, Probe, Query, Recorder, Vertex};
 pub use radiosity::{
-    Gather, Mechanisms, RadiosityParts, RadiosityReport, RadiositySettings, RadiositySolution,
+    Gather, Given, Mechanisms, RadiosityParts, RadiosityReport, RadiositySettings, RadiositySolution,
+    RowFinder,
 };
 pub use render::{Dropped, Progress, Render, RenderError, Share, Statistics};
 pub use sampler::Sampler;

@@ -7,12 +7,13 @@ use crate::pairs;
 use crate::part::{Part, PartError};
 use crate::passes::{How, Job, Light, Replay, TileCounts, TileRenderer, group_lamps, renderer};
 use crate::path::Query;
-use crate::radiosity::RadiositySolution;
+use crate::radiosity::{Given, RadiositySolution};
 use crate::sampler::Numbers;
 use crate::scanline::BAND;
 use crate::scene_products::{basis, spectral_error};
 use crate::settings::{Layer, LightCentres, Settings, Shadows, Technique};
 use illuminant_illumination::Illumination;
+use illuminant_radiosity::Cancel;
 use illuminant_sampling::{Basis, SamplingError, SpectralError};
 use illuminant_scene::Scene;
 use illuminant_spectrum::{Curve, Observer};
@@ -167,7 +168,20 @@ impl Render {
         settings: Settings,
         solution: Option<Arc<RadiositySolution>>,
     ) -> Result<Self, RenderError> {
-        Self::with(scene, settings, solution, None)
+        Self::unless_cancelled(scene, settings, solution, &Cancel::default())
+    }
+
+    /// The same; where the light between surfaces has to be solved for first, that stops when it is told to.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; what is cancelled is no render.
+    pub fn unless_cancelled(
+        scene: Arc<Scene>,
+        settings: Settings,
+        solution: Option<Arc<RadiositySolution>>,
+        cancel: &Cancel,
+    ) -> Result<Self, RenderError> {
+        Self::with(scene, settings, solution, None, cancel)
     }
 
     /// A render of a scene that differs from this one's in its camera, or by other settings, in the same wavelengths: to fit
@@ -185,7 +199,7 @@ impl Render {
         let same = settings.sampling == self.job.settings.sampling
             && scene.lamps.len() == self.job.scene.lamps.len()
             && scene.range == self.job.scene.range;
-        Self::with(scene, settings, solution, same.then(|| Arc::clone(&self.basis)))
+        Self::with(scene, settings, solution, same.then(|| Arc::clone(&self.basis)), &Cancel::default())
     }
 
     fn with(
@@ -193,6 +207,7 @@ impl Render {
         settings: Settings,
         solution: Option<Arc<RadiositySolution>>,
         wavelengths: Option<Arc<dyn Basis>>,
+        cancel: &Cancel,
     ) -> Result<Self, RenderError> {
         let technique: Technique = settings.technique.parse().map_err(RenderError::Setting)?;
         let illumination: Illumination = settings.illumination.parse().map_err(RenderError::Setting)?;
@@ -264,7 +279,10 @@ impl Render {
         let film = Film::with_tiles(scene.camera.crop, tile, &settings, &names, basis.len());
         let solution = match (technique, solution) {
             (technique, None) if technique.is_solved() => {
-                let solved = pool.install(|| RadiositySolution::new(&scene, &settings, Arc::clone(&basis)));
+                let solved = pool.install(|| {
+                    let basis = Arc::clone(&basis);
+                    RadiositySolution::new_unless_cancelled(&scene, &settings, basis, Given::Nothing, cancel)
+                });
                 Some(Arc::new(solved.map_err(RenderError::Setting)?))
             }
             (_, given) => given,

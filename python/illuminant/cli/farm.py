@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
@@ -12,6 +13,8 @@ from illuminant.cli import render as rendering
 if TYPE_CHECKING:
     from illuminant.checkpoint import Keeper
     from illuminant.job import Job, OnProgress
+    from illuminant.scene import Scene
+    from illuminant.settings import Settings
 
 __all__ = ["app", "render"]
 
@@ -47,22 +50,46 @@ def render(*, workers: int | None, address: str | None, threads: int, **options:
       illuminant farm render room.toml --address ray://head:10001 --threads 8 --checkpoint room.ckpt --resume
     """
 
-    def follow(job: Job, progress: OnProgress | None, keeper: Keeper | None) -> None:
+    with ExitStack() as stack:
+        token = rendering.done_by.set(_Farm(stack, workers, address, threads))
+        try:
+            rendering.render(**options)
+        finally:
+            rendering.done_by.reset(token)
+
+
+class _Farm(rendering.Here):
+    """Does the work of a job on a cluster, which is there from when it is first needed: mistakes are found before."""
+
+    def __init__(self, stack: ExitStack, workers: int | None, address: str | None, threads: int) -> None:
+        self._stack = stack
+        self._asked = (workers, address)
+        self._threads = threads
+        self._ray: Any = None
+
+    def _cluster(self) -> Any:
+        if self._ray is None:
+            from illuminant.farm import cluster
+
+            self._ray = self._stack.enter_context(cluster(*self._asked))
+        return self._ray
+
+    def solve_by(self, scene: Scene, settings: Settings) -> Any:
+        """Solve for the light between surfaces."""
+        from illuminant.farm import solve
+
+        return solve(self._cluster(), scene, settings, threads=self._threads)
+
+    def follow(self, job: Job, progress: OnProgress | None, keeper: Keeper | None) -> None:
+        """Do the work, and say who did it."""
         from illuminant.cli.report import note
-        from illuminant.farm import cluster, render_job
+        from illuminant.farm import render_job
 
-        with cluster(workers, address) as ray:
-            report = render_job(ray, job, threads=threads, progress=progress, keeper=keeper)
+        report = render_job(self._cluster(), job, threads=self._threads, progress=progress, keeper=keeper)
         note(
-            f"farm: {report.shares} shares by {len(report.workers)} workers, busy for {report.busy:.1f} s of "
-            f"{report.seconds:.1f} s each; {report.bytes / 1e6:.1f} MB came back"
+            f"farm: {report.shares} shares by {len(report.workers)} workers, busy for {report.busy:.1f} s in all, in "
+            f"{report.seconds:.1f} s; {report.bytes / 1e6:.1f} MB came back"
         )
-
-    token = rendering.followed_by.set(follow)
-    try:
-        rendering.render(**options)
-    finally:
-        rendering.followed_by.reset(token)
 
 
 def _signature() -> inspect.Signature:

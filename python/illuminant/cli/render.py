@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable
 from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -35,8 +34,10 @@ if TYPE_CHECKING:
     from illuminant.checkpoint import Checkpoint, Keeper
     from illuminant.image import Image, Saved
     from illuminant.job import Job, OnProgress
+    from illuminant.scene import Scene
+    from illuminant.settings import Settings
 
-__all__ = ["followed_by", "here", "render"]
+__all__ = ["Here", "done_by", "render"]
 
 SHOWN = 3
 """How many dropped samples are named one by one."""
@@ -398,7 +399,7 @@ def render(
     with _Stop() as stop:
         from illuminant.job import Job
 
-        job = stop.watch(Job(scene, checkpoint=before, **options))
+        job = stop.watch(Job(scene, checkpoint=before, solve_by=done_by.get().solve_by, **options))
         if pixel is not None:
             _print_path(job, pixel, sample or 0, json)
         else:
@@ -525,15 +526,20 @@ class _Stop:
             signal.signal(number, handler)
 
 
-def here(job: Job, progress: OnProgress | None, keeper: Keeper | None) -> None:
-    """Do the work of a job in this process."""
-    for _ in job.passes(progress, keeper):
-        pass
+class Here:
+    """Does the work of a job in this process."""
+
+    def solve_by(self, scene: Scene, settings: Settings) -> Any:
+        """Solve for the light between surfaces; None leaves it to the job."""
+        return None
+
+    def follow(self, job: Job, progress: OnProgress | None, keeper: Keeper | None) -> None:
+        """Do it to its end."""
+        for _ in job.passes(progress, keeper):
+            pass
 
 
-followed_by: ContextVar[Callable[[Job, OnProgress | None, Keeper | None], None]] = ContextVar(
-    "followed_by", default=here
-)
+done_by: ContextVar[Here] = ContextVar("done_by", default=Here())  # noqa: B039 - it holds nothing that changes
 """Who does the work of a job: this process, or the farm."""
 
 
@@ -542,7 +548,7 @@ def _work(job: Job, keeper: Keeper | None) -> Image:
     from illuminant.cli.report import progress_bar
 
     with progress_bar(Path(job.source).name) as bar:
-        followed_by.get()(job, bar, keeper)
+        done_by.get().follow(job, bar, keeper)
         return job.image()
 
 

@@ -21,15 +21,16 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from illuminant.farm.cluster import cluster
-from illuminant.farm.tasks import Brought, Work, share
+from illuminant.farm.tasks import Brought, Rows, Work, rows, share
 
 if TYPE_CHECKING:
     from illuminant.checkpoint import Checkpoint, Keeper
     from illuminant.image import Image
     from illuminant.job import Job, OnProgress
     from illuminant.scene import Scene
+    from illuminant.settings import Settings
 
-__all__ = ["Report", "cluster", "render", "render_job"]
+__all__ = ["Report", "cluster", "render", "render_job", "solve"]
 
 STEP = 64
 """Samples of a pixel that are shared out before the next ones."""
@@ -128,7 +129,12 @@ def render(
     keeper = None if checkpoint is None else Keeper(checkpoint, duration(every, "every"))
     before: Checkpoint | None = None if checkpoint is None else resumed(checkpoint, resume=resume)
     with cluster(workers, address) as ray:
-        job = Job(scene, checkpoint=before, **options)
+        job = Job(
+            scene,
+            checkpoint=before,
+            solve_by=lambda scene, settings: solve(ray, scene, settings, threads=threads),
+            **options,
+        )
         report = render_job(ray, job, threads=threads, progress=progress, keeper=keeper)
     image = job.image()
     image.statistics["farm"] = report.to_dict()
@@ -223,6 +229,59 @@ def render_job(
         keeper.keep(job)
     report.seconds = time.monotonic() - began
     return report
+
+
+def solve(ray: Any, scene: Scene, settings: Settings, *, threads: int = 1) -> Any:
+    """Solve for the light between surfaces for `radiosity`: workers find the rows of form factors.
+
+    Other techniques find them together with the light of lamps, and are left to this process.
+
+    Args:
+        ray: what `cluster` yields.
+        scene: the scene.
+        settings: of the render.
+        threads: of each worker.
+
+    Returns:
+        The core's solution; the one that it finds itself, to the bit. None for other techniques.
+    """
+    if settings.technique != "radiosity":
+        return None
+    import numpy as np
+
+    from illuminant.core import core, embree
+
+    embree()
+    core_scene = scene.core(settings.threads)
+    told = replace(settings, threads=threads).to_core()
+    finder = core().RowFinder(core_scene, told)
+    count, width = len(finder), finder.width
+    del finder
+    work = Work(f"{scene.hash()} {told}", told, threads, [ray.put(scene.to_bytes())])
+    lanes = max(1, int(ray.cluster_resources().get("CPU", 1)) // threads)
+    step = max(16, count // (8 * lanes))
+    remote = ray.remote(num_cpus=threads, max_retries=MOST_RETRIES)(rows)
+    waiting: list[Any] = []
+    found: list[Rows] = []
+    first = 0
+    while first < count or waiting:
+        while first < count and len(waiting) < 2 * lanes:
+            waiting.append(remote.remote(work, first, min(first + step, count)))
+            first += step
+        ready, waiting = ray.wait(waiting, num_returns=1)
+        found += ray.get(ready)
+    found.sort(key=lambda one: one.first)
+    starts, end = [np.zeros(1, np.uint64)], 0
+    for one in found:
+        starts.append(one.starts[1:] + np.uint64(end))
+        end += int(one.starts[-1])
+    together = {
+        "starts": np.concatenate(starts),
+        "columns": np.concatenate([one.columns for one in found]),
+        "values": np.concatenate([one.values for one in found]),
+        "width": width,
+    }
+    return core().Solution(core_scene, settings.to_core(), None, together)
 
 
 def _work(ray: Any, job: Job, threads: int) -> Work:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from illuminant.image import Image
 
-__all__ = ["Brought", "Work", "frame", "share"]
+__all__ = ["Brought", "Rows", "Work", "frame", "rows", "share"]
 
 Fetch = Callable[[Any], bytes]
 
@@ -55,6 +55,25 @@ class Brought:
     samples: int
     seconds: float
     prepared: float
+    process: int
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows of form factors that a task found.
+
+    Attributes:
+        first: number of the first.
+        starts: where each begins in the other two, and the end.
+        columns: of the entries.
+        values: of the entries.
+        process: number of the worker's process.
+    """
+
+    first: int
+    starts: Any
+    columns: Any
+    values: Any
     process: int
 
 
@@ -99,6 +118,29 @@ def share(work: Work, samples: tuple[int, int], tiles: tuple[int, int] | None, f
     part = render.part()
     taken = int(render.statistics()["samples"])
     return Brought(part, taken, time.perf_counter() - began, prepared, os.getpid())
+
+
+def rows(work: Work, first: int, last: int) -> Rows:
+    """Find rows of form factors of `radiosity`.
+
+    Args:
+        work: which scene and settings.
+        first: number of the first row.
+        last: number of the row after the last.
+    """
+    key = f"rows of {work.key}"
+    if key not in _kept:
+        import ray
+
+        from illuminant.core import core, embree
+        from illuminant.scene import Scene
+
+        _kept.clear()
+        embree()
+        (scene,) = ray.get(work.references)
+        _kept[key] = core().RowFinder(Scene.from_bytes(scene).core(work.threads), work.settings)
+    starts, columns, values = _kept[key].find(first, last)
+    return Rows(first, starts, columns, values, os.getpid())
 
 
 def frame(references: list[Any], options: dict[str, Any]) -> Image:

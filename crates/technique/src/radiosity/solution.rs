@@ -109,7 +109,7 @@ pub struct RadiosityParts {
 }
 
 /// Whether what surfaces themselves reflect counts as diffuse, for a technique.
-fn counted(settings: &Settings) -> Counted {
+pub(super) fn counted(settings: &Settings) -> Counted {
     if settings.technique == Technique::Hybrid.to_string() { Counted::Diffuse } else { Counted::All }
 }
 
@@ -123,6 +123,19 @@ macro_rules! with_model {
         }
     }};
 }
+pub(super) use with_model;
+
+/// What of a solution is known already.
+#[derive(Clone, Debug, Default)]
+pub enum Given {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// All rows of form factors ([`RowFinder`](super::RowFinder)), for `radiosity`.
+    Rows(Sparse),
+    /// All of it.
+    All(Box<RadiosityParts>),
+}
 
 impl RadiositySolution {
     /// Solves for the light between the surfaces of a scene, in the samples of a basis.
@@ -130,10 +143,11 @@ impl RadiositySolution {
     /// # Errors
     /// A sentence on what cannot be.
     pub fn new(scene: &Scene, settings: &Settings, basis: Arc<dyn Basis>) -> Result<Self, String> {
-        Self::new_unless_cancelled(scene, settings, basis, &Cancel::default())
+        Self::new_unless_cancelled(scene, settings, basis, Given::Nothing, &Cancel::default())
     }
 
-    /// The same, which stops within a few rows of form factors or steps of the solver when it is told to.
+    /// The same, of which something may be known already, and which stops within a few rows of form factors or steps of the solver when
+    /// it is told to.
     ///
     /// # Errors
     /// As [`Self::new`]; what is cancelled has no result.
@@ -141,9 +155,10 @@ impl RadiositySolution {
         scene: &Scene,
         settings: &Settings,
         basis: Arc<dyn Basis>,
+        given: Given,
         cancel: &Cancel,
     ) -> Result<Self, String> {
-        with_model!(settings, solve(scene, settings, basis, None, cancel))
+        with_model!(settings, solve(scene, settings, basis, given, cancel))
     }
 
     /// The solution of the same surfaces with other paints: the form factors and the light of lamps are kept, and the equations solved again.
@@ -206,8 +221,8 @@ impl RadiositySolution {
         basis: Arc<dyn Basis>,
         parts: RadiosityParts,
     ) -> Result<Self, String> {
-        let cancel = Cancel::default();
-        with_model!(settings, solve(scene, settings, basis, Some(parts), &cancel))
+        let (given, cancel) = (Given::All(Box::new(parts)), Cancel::default());
+        with_model!(settings, solve(scene, settings, basis, given, &cancel))
     }
 
     /// Of each column of lamps the light in every sample by which its irradiance is multiplied, if the lamps are those of `scene`.
@@ -279,7 +294,7 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
     scene: &Scene,
     settings: &Settings,
     basis: Arc<dyn Basis>,
-    parts: Option<RadiosityParts>,
+    given: Given,
     cancel: &Cancel,
 ) -> Result<RadiositySolution, String> {
     let told = &settings.radiosity;
@@ -333,7 +348,7 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
         found.report.seconds[3] = lap();
         return Ok(found);
     }
-    if let Some(parts) = parts {
+    if let Given::All(parts) = given {
         let fits = parts.rows.height() == sides
             && parts.rows.width == found.elements.patches.len()
             && parts.direct.len() == sides * columns * samples
@@ -365,8 +380,15 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
         match counted {
             Counted::All => {
                 let (geometry, elements) = (&*scene.geometry, &found.elements);
-                let factors = FormFactors::unless_cancelled(geometry, elements, method, cancel)?;
-                found.factors = Arc::new(factors);
+                found.factors = Arc::new(match given {
+                    Given::Rows(rows) if rows.height() == sides && rows.width == elements.patches.len() => {
+                        FormFactors::from_rows(rows)
+                    }
+                    Given::Rows(_) => {
+                        return Err("the rows of form factors are not those of this scene".into());
+                    }
+                    _ => FormFactors::unless_cancelled(geometry, elements, method, cancel)?,
+                });
             }
             Counted::Diffuse => found.look_around(scene, settings, &passes, method, cancel)?,
         }

@@ -1,7 +1,7 @@
 //! Solutions from older ones: of the same surfaces in other paints, and after objects have moved (Baum et al. 1986).
 
 use super::cutting::cut;
-use super::solution::{LANES, RadiositySolution, prepared, solve};
+use super::solution::{Given, LANES, RadiositySolution, prepared, solve};
 use super::{direct, reflectance};
 use crate::settings::Settings;
 use glam::Vec3;
@@ -70,7 +70,7 @@ pub(super) fn shift<M: IlluminationModel<LANES> + Prepare>(
     let (Some(looking), true) = (looking, elements.is_alike(&old.elements)) else {
         // Elements are others, or ways of rays cannot be compared: all is new.
         let basis = Arc::clone(&old.basis);
-        let found = solve::<M>(illumination, scene, settings, basis, None, cancel)?;
+        let found = solve::<M>(illumination, scene, settings, basis, Given::Nothing, cancel)?;
         let sides = found.elements.sides.len();
         return Ok((found, sides));
     };
