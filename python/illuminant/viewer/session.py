@@ -47,6 +47,8 @@ class Session:
         self.mode = MODES[0]
         self.frame: Frame | None = None
         self.sent: Frame | None = None
+        self.codes: NDArray[np.uint8] | None = None
+        """What was sent last, as the browser shows it."""
         self.held: State | None = None
         self.held_frame: Frame | None = None
         self.divider = 0.5
@@ -126,11 +128,13 @@ class Session:
         """Show the same light in another look."""
         with self.lock:
             self.state = state
+        self.panels.forgive()
         self.show()
 
     def ask(self) -> None:
         """Render what is chosen, from where the page's camera stands."""
         with self.lock:
+            self.panels.forgive()
             camera = self._shown_camera = self.camera()
             self.refiner.ask(self.state, camera)
             if self.held is not None and self._second is not None:
@@ -175,7 +179,7 @@ class Session:
             far = self._wire(frame) if wired else None
             # Sent under the lock, so that an older picture never comes last.
             self.client.scene.set_background_image(codes, format="png", depth=far)
-            self.sent = frame
+            self.codes, self.sent = codes, frame
 
     def _beside(self, other: Frame, held: State, frame: Frame, codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """The held setting at the left and the chosen one at the right, or the map of their difference."""
@@ -263,4 +267,4 @@ class Session:
         self.refiner.close()
         if self._second is not None:
             self._second.close()
-        self.frame = self.sent = self.held_frame = self._depth = None
+        self.frame = self.sent = self.codes = self.held_frame = self._depth = None

@@ -30,6 +30,7 @@ class Panels:
     def __init__(self, session: Session) -> None:
         gui = session.client.gui
         self._status = gui.add_markdown("Starting …")
+        self._trouble = gui.add_markdown("")
         self._facts = gui.add_markdown("")
         self.picture = PicturePanel(session)
         self.measure = MeasurePanel(session)
@@ -58,9 +59,16 @@ class Panels:
             self._facts.content = f"{100 * made.outside:.2g} % of the pixels are out of gamut."
 
     def say(self, text: str, wrong: bool) -> None:
-        """Show a sentence in place of the progress."""
-        if text:
-            self._status.content = f"**{text}**" if wrong else text
+        """Show a sentence in place of the progress; one on a mistake beside it, until something else is chosen."""
+        if text and wrong:
+            self._trouble.content = f"**{text}**"
+        elif text:
+            self._status.content = text
+
+    def forgive(self) -> None:
+        """Take away the sentence on a mistake."""
+        if self._trouble.content:
+            self._trouble.content = ""
 
 
 def duration(seconds: float) -> str:
