@@ -13,11 +13,12 @@ from typing import Any
 import numpy as np
 import PIL.Image
 import pytest
+from matplotlib import colormaps
 
 from illuminant.viewer import view
 from illuminant.viewer.composition import compose
-from illuminant.viewer.panels.measure import amount
 from illuminant.viewer.refinement import _same
+from illuminant.viewer.scale import amount
 
 SIZE = {"width": 700, "height": 480}
 CANVAS = (slice(210, 460), slice(20, 240))
@@ -243,6 +244,62 @@ def test_a_page_can_choose_only_what_is_offered(page):
     page.until(lambda: "not one of the choices" in page.session.panels._trouble.content)
     assert page.session.state.look.display == state.look.display
     control._impl.value = known
+
+
+def test_a_map_of_illuminance_is_shown_with_its_scale(page):
+    page.full(4)
+    before, session = page.pixels(), page.session
+    page.page.get_by_text("Display", exact=True).click()
+    page.choose("show", "illuminance in false colours")
+    page.until(lambda: session.sent.illuminance is not None and page.shows_what_was_sent())
+    page.differs(before, 10.0)
+    lux = session.sent.illuminance
+    row, column = int(260 / 480 * lux.shape[0]), int(180 / 700 * lux.shape[1])
+    low, high = session.composition.scale
+    assert session.composition.title.startswith("illuminance, lx")
+    assert low < lux[row, column] < 2 * high
+    # The lowest part of the bar is violet, the rest of it green and yellow.
+    bar = session.codes[-60:-20, 20:290].reshape(-1, 3)
+    for part in (0.0, 0.5, 1.0):
+        colour = np.array(colormaps["viridis"](part, bytes=True)[:3])
+        assert (np.abs(bar.astype(int) - colour).max(axis=1) <= 3).any(), part
+    page.choose("technique", "gouraud")
+    page.until(lambda: "no map of illuminance" in session.panels._trouble.content)
+    page.choose("technique", "path")
+    page.choose("show", "picture")
+    page.full(4)
+    page.until(lambda: np.abs(page.pixels() - before).mean() < 10.0)
+
+
+def test_the_buttons_of_keep_write_files_and_say_which(page):
+    from playwright.sync_api import expect
+
+    page.full(4)
+    session, tab = page.session, page.page
+    tab.get_by_text("Keep", exact=True).click()
+    for button, endings in {
+        "image (PNG and EXR)": [".exr", ".png"],
+        "scene (TOML)": [".toml"],
+        "spectrum of the last reading (CSV)": [".csv"],
+    }.items():
+        before = set(session.folder.iterdir())
+        tab.get_by_role("button", name=button, exact=True).click()
+
+        def written(before: set[Any] = before) -> set[Any]:
+            return {file for file in session.folder.iterdir() if not file.name.startswith(".")} - before
+
+        page.until(lambda written=written, endings=endings: len(written()) == len(endings))
+        assert sorted(file.suffix for file in written()) == endings
+        for file in written():
+            expect(tab.get_by_text(file.name).first).to_be_visible(timeout=1000 * PATIENCE_S)
+            page.until(lambda file=file: file.stat().st_size > 0)
+    before = set(session.folder.iterdir())
+    tab.get_by_role("button", name="solution of radiosity", exact=True).click()
+    told = tab.get_by_text("There is no solution").first
+    expect(told).to_be_visible(timeout=1000 * PATIENCE_S)
+    assert set(session.folder.iterdir()) == before
+    tab.get_by_role("button", name="command line", exact=True).click()
+    expect(tab.get_by_text("illuminant render").first).to_be_visible(timeout=1000 * PATIENCE_S)
 
 
 def test_what_is_kept_is_valid_and_stays_in_the_folder(page):

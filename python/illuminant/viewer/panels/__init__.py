@@ -42,6 +42,10 @@ class Panels:
 
     def progress(self, frame: Frame) -> None:
         """Tell how far a picture is."""
+        if frame.illuminance is not None:
+            down, across = frame.illuminance.shape
+            self._status.content = f"illuminance at {across} × {down} points"
+            return
         height, width = frame.image.xyz.shape[:2]
         plural = "" if frame.samples == 1 else "s"
         parts = [f"{width} × {height}", f"{frame.samples} sample{plural}", f"{frame.mrays:.1f} Mrays/s"]
@@ -54,7 +58,9 @@ class Panels:
     def facts(self, made: Composed) -> None:
         """Tell what the look did to the picture."""
         if made.scale is not None:
-            self._facts.content = "Luminance on a logarithmic scale; darker than its end is violet."
+            what = made.title.partition(",")[0].capitalize()
+            grey = " Grey has no number." if what == "Illuminance" else ""
+            self._facts.content = f"{what} on a logarithmic scale; darker than its end is violet.{grey}"
         else:
             self._facts.content = f"{100 * made.outside:.2g} % of the pixels are out of gamut."
 
