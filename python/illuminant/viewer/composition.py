@@ -53,6 +53,7 @@ def compose(
     *,
     shining: NDArray[np.bool_] | None = None,
     lux: NDArray[np.floating[Any]] | None = None,
+    scale: tuple[float, float] | None = None,
 ) -> Composed:
     """The code values of an image as a state shows it.
 
@@ -62,14 +63,15 @@ def compose(
         mode: one of `MODES`.
         shining: (h, w), where lamps are seen: the scale of luminance is for what they light.
         lux: a map of illuminance, on a grid of its own; without one the picture stands in for it.
+        scale: ends of the scale of false colours, where another picture beside this one has made them.
     """
     import numpy as np
 
     if mode == MODES[3] and lux is not None:
-        return _scaled(lux, np.isfinite(lux), "illuminance, lx")
+        return _scaled(lux, np.isfinite(lux), "illuminance, lx", scale)
     if mode == MODES[1]:
         counted = np.ones(xyz.shape[:2], bool) if shining is None or shining.all() else ~shining
-        return _scaled(xyz[..., 1], counted, "luminance, cd/m²")
+        return _scaled(xyz[..., 1], counted, "luminance, cd/m²", scale)
 
     from illuminant.display.look import show
 
@@ -83,22 +85,30 @@ def compose(
     return Composed(codes, None, shown.outside)
 
 
-def _scaled(values: NDArray[np.floating[Any]], counted: NDArray[np.bool_], title: str) -> Composed:
+def _scaled(
+    values: NDArray[np.floating[Any]],
+    counted: NDArray[np.bool_],
+    title: str,
+    scale: tuple[float, float] | None,
+) -> Composed:
     """A map in false colours; the lightest also stands for what is above the scale, and the title says so."""
-    codes, (low, high) = false_colour(values, counted)
+    codes, (low, high) = false_colour(values, counted, scale)
     if (values > high).any():
         title = f"{title}; lightest: > {amount(float(f'{high:.3g}'))}"
     return Composed(codes, (low, high), 0.0, title)
 
 
 def false_colour(
-    values: NDArray[np.floating[Any]], counted: NDArray[np.bool_] | None = None
+    values: NDArray[np.floating[Any]],
+    counted: NDArray[np.bool_] | None = None,
+    scale: tuple[float, float] | None = None,
 ) -> tuple[Codes, tuple[float, float]]:
     """Numbers on a logarithmic scale of three powers of ten below their 99.5th percentile, and the scale's ends.
 
     Args:
         values: (h, w); nan is grey.
         counted: (h, w), those that make the scale; without it all.
+        scale: its ends, if they are given.
 
     Example:
         >>> import numpy as np
@@ -111,7 +121,7 @@ def false_colour(
 
     from illuminant.plots.luminance import DECADES, ends
 
-    low, top = ends(values if counted is None else values[counted])
+    low, top = scale or ends(values if counted is None else values[counted])
     place = np.log10(np.maximum(values, low) / low) / DECADES
     codes = np.array(colormaps["viridis"](np.clip(place, 0, 1), bytes=True)[..., :3])
     codes[np.isnan(values)] = NO_NUMBER

@@ -212,15 +212,19 @@ class Session:
             top = 10.0 if self.map == "ΔE00" else 1.0
             return with_scale(codes, "magma", 0.0, top, self.map, logarithmic=False)
         self.panels.compare.mean("none", 0.0)
-        return split(self.composed(other, held), codes, self.divider)
+        # One scale for both sides, or equal colours would not be equal light.
+        scale = None if self.composition is None else self.composition.scale
+        return split(self.composed(other, held, scale), codes, self.divider)
 
-    def composed(self, frame: Frame, state: State) -> NDArray[np.uint8]:
-        """The codes of a frame."""
+    def composed(
+        self, frame: Frame, state: State, scale: tuple[float, float] | None = None
+    ) -> NDArray[np.uint8]:
+        """The codes of a frame, in false colours on its own scale or a given one."""
         import numpy as np
 
         emission = frame.image.layers.get("emission")
         shining = None if emission is None else np.asarray((emission > 0).any(axis=2))
-        made = compose(frame.image.xyz, state, self.mode, shining=shining, lux=frame.illuminance)
+        made = compose(frame.image.xyz, state, self.mode, shining=shining, lux=frame.illuminance, scale=scale)
         if frame is self.frame:
             self.composition = made
             self.panels.facts(made)
