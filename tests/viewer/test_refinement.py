@@ -25,7 +25,7 @@ def refiner() -> Iterator[tuple[Refiner, list[Frame], list[str]]]:
     made.close()
 
 
-def until(holds: Callable[[], Any], seconds: float = 30.0) -> None:
+def until(holds: Callable[[], Any], seconds: float = 180.0) -> None:
     """Wait until something holds."""
     end = time.monotonic() + seconds
     while not holds():
@@ -96,6 +96,30 @@ def test_a_solution_found_elsewhere_is_relit(cornell):
     assert wrong == []
 
 
+def test_maps_of_illuminance_become_finer_until_something_else_is_asked_for(cornell):
+    from dataclasses import replace
+
+    with refiner() as (made, frames, wrong):
+        made.ask(cornell, camera(cornell), illuminance=True)
+
+        def mapped() -> list[tuple[int, ...]]:
+            return [frame.illuminance.shape for frame in frames if frame.illuminance is not None]
+
+        until(lambda: len(mapped()) == 2)
+        assert mapped() == [(25, 40), (50, 80)]
+        assert all(frame.preview for frame in frames), "the whole picture is not rendered meanwhile"
+        large = camera(cornell) | {"size": [1280, 800]}
+        made.ask(cornell, large, illuminance=True)
+        until(lambda: len(mapped()) == 3)
+        second = made.ask(cornell, camera(cornell))
+        until(lambda: any(frame.request.number == second and not frame.preview for frame in frames))
+        assert len(mapped()) < 6, "a map that is wanted no more is not finished"
+        assert wrong == []
+        made.ask(replace(cornell, technique="gouraud"), camera(cornell), illuminance=True)
+        until(lambda: wrong)
+        assert wrong[0].startswith("gouraud has no map of illuminance")
+
+
 def test_first_pictures_disperse_nothing_and_differ_in_nothing_else(repository):
     state = State.of(repository / "scenes" / "demo.toml")
     with refiner() as (made, _, _):
@@ -122,6 +146,6 @@ def test_a_closed_refiner_keeps_nothing(cornell):
         gc.disable()
     frames.clear()
     try:
-        until(lambda: job() is None, 5.0)
+        until(lambda: job() is None, 30.0)
     finally:
         gc.enable()

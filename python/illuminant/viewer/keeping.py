@@ -37,6 +37,8 @@ def image(session: Session) -> list[Path]:
     from dataclasses import replace
 
     frame = session.frame
+    if frame is not None and frame.illuminance is not None:
+        raise UsageError("A map of illuminance is no picture: choose another under show first.")
     if frame is None or frame.preview:
         raise UsageError("There is no whole picture yet: wait a moment.")
     look = replace(session.state.look, exposure=session.state.exposure)
