@@ -294,6 +294,18 @@ def render(
     dither: DitherName = "none",
     bits: Bits = 8,
     pipeline: Pipeline = "ideal",
+    frames: Annotated[
+        str | None,
+        typer.Option(
+            "--frames",
+            metavar="N-M",
+            help="Frames of the scene's [animation]: all, 12, 1-48, 1-48x2 or 5,7,9, into FILE with #### for the "
+            "number (SCENE.####.png). Finished ones are passed over.",
+        ),
+    ] = None,
+    again: Annotated[
+        bool, typer.Option("--again", help="With --frames: render finished ones too.", show_default=False)
+    ] = False,
     pixel: Annotated[
         str | None,
         typer.Option(
@@ -317,6 +329,7 @@ def render(
     Examples:
       illuminant render room.toml -o room.png
       illuminant render room.toml -o room.exr -o room.png --time 30s
+      illuminant render turntable.toml --frames all -o turn.####.png
     """
     from illuminant.errors import UsageError
     from illuminant.image import check_output
@@ -325,8 +338,10 @@ def render(
         raise UsageError(f"{scene} is a folder: name a scene file.")
     if pixel is None and sample is not None:
         raise UsageError(f"--sample {sample}: goes with --pixel, whose path it names.")
+    if again and frames is None:
+        raise UsageError("--again: goes with --frames, whose finished ones it renders too.")
     paths = list(dict.fromkeys(output or [Path(scene.stem + ".png")]))
-    if pixel is None:
+    if pixel is None and frames is None:
         for path in paths:
             check_output(path)
     look = asked_look(display, exposure, transfer, tone, gamut, dither, bits, seed or 0, pipeline)
@@ -376,6 +391,12 @@ def render(
     with _Stop() as stop:
         from illuminant.job import Job
 
+        if frames is not None and pixel is None:
+            from illuminant.cli.frames import render_frames
+
+            saving = {"look": look, "rgb": rgb, "half": half}
+            render_frames(scene, frames, output, options, saving, again=again, json=json, stop=stop)
+            return
         job = stop.watch(Job(scene, **options))
         if pixel is not None:
             _print_path(job, pixel, sample or 0, json)
