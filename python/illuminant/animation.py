@@ -43,7 +43,7 @@ from typing import Any
 
 from illuminant import keyframes
 from illuminant.animation_schema import AnimationTable, Keys
-from illuminant.errors import SceneError, suggestion
+from illuminant.errors import Problem, SceneError, suggestion
 from illuminant.report import Path, Report, read_table
 from illuminant.scene import Scene
 
@@ -128,33 +128,38 @@ class _Moment(Report):
     What keyframes brought about is reported at their line, with the time; what stands in the file, once.
     """
 
-    def __init__(self, whole: Report, tracks: tuple[Track, ...], time: float) -> None:
-        super().__init__(whole.file, whole.lines)
-        self.whole = whole
-        self.problems = whole.problems
-        self.tracks = tracks
+    def __init__(
+        self, animation: Animation, time: float, problems: list[Problem], said: set[tuple[Path, str]]
+    ) -> None:
+        super().__init__(animation.report.file, animation.report.lines)
+        self.problems = problems
+        self.said = said
+        self.animation = animation
         self.time = time
 
     def add(self, path: Path, message: str, hint: str = "", kind: str = "value") -> None:
         """Add a mistake at a key path of the still scene."""
-        for track in self.tracks:
-            depth = len(track.path)
-            if path[:depth] == track.path:
-                rest = _written(path[depth:])
-                place: Path = ("animation", "keys", track.name, "values")
-                if self.time in track.times:
-                    place = (*place, track.times.index(self.time))
-                subject = f"{track.path[-1]}{'' if rest.startswith('[') else '.'}{rest}" if rest else ""
-                message = f"{subject} {message}" if subject else message
-                super().add(place, f"at {self.time:g} s, {message}", hint, kind)
+        tracks = self.animation.tracks
+        track = next((track for track in tracks if path[: len(track.path)] == track.path), None)
+        once = (path, message)
+        if track is None or kind in ("unknown-key", "missing-key"):
+            if once in self.said:
                 return
-        if any(
-            track.path[:2] == path[:2] or path[:1] == track.path[:1] == ("camera",) for track in self.tracks
-        ):
-            if not any(problem.message == message for problem in self.problems):
-                super().add(path, f"at {self.time:g} s: {message}" if self.time else message, hint, kind)
-            return
-        super().add(path, message, hint, kind)
+            self.said.add(once)
+        if track is not None:
+            place: Path = ("animation", "keys", track.name, "values")
+            if self.time in track.times:
+                place = (*place, track.times.index(self.time))
+            rest = _written(path[len(track.path) :])
+            if rest:
+                dot = "" if rest.startswith("[") else "."
+                message = f"{track.path[-1]}{dot}{rest} {message}"
+            super().add(place, f"at {self.time:g} s, {message}", hint, kind)
+        elif self.time != self.animation.time(self.animation.first):
+            # Had it nothing to do with keyframes, it would have been said of the first frame.
+            super().add(path, f"at {self.time:g} s: {message}", hint, kind)
+        else:
+            super().add(path, message, hint, kind)
 
 
 def _written(path: Path) -> str:
@@ -296,7 +301,8 @@ class Animation:
 
         time = self.time(frame, field)
         duration = float(1 / (self.frames_per_second * self.times_of_fields))
-        return scene_file.still(self._moving(time, duration), self._moment(time), self.directory, self.meshes)
+        moment = _Moment(self, time, [], set())
+        return scene_file.still(self._moving(time, duration), moment, self.directory, self.meshes)
 
     def check(self) -> None:
         """Look for mistakes in the first frame and at the times of keyframes.
@@ -309,13 +315,12 @@ class Animation:
         keys = sorted({time for track in self.tracks for time in track.times} - {self.time(self.first)})
         if len(keys) > MOST_MOMENTS:
             keys = [keys[i * (len(keys) - 1) // (MOST_MOMENTS - 1)] for i in range(MOST_MOMENTS)]
+        said: set[tuple[Path, str]] = set()
         for time in [self.time(self.first), *keys]:
+            moment = _Moment(self, time, self.report.problems, said)
             with suppress(SceneError):
-                scene_file.still(self.data(time), self._moment(time), self.directory, self.meshes)
+                scene_file.still(self.data(time), moment, self.directory, self.meshes)
         self.report.raise_if_any()
-
-    def _moment(self, time: float) -> Report:
-        return _Moment(self.report, self.tracks, time)
 
     # --- while the shutter is open ---------------------------------------------------------------------------------
 

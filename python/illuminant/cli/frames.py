@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from illuminant.cli.render import _Stop
     from illuminant.frames import Frame
+    from illuminant.scene import Scene
 
-__all__ = ["render_frames"]
+__all__ = ["one_frame", "render_frames"]
 
 
 def render_frames(
@@ -83,6 +84,26 @@ def render_frames(
         skipped = sum(bool(facts["skipped"]) for facts in done)
         parts = [f"{len(done) - skipped} rendered"] + ([f"{skipped} finished before"] if skipped else [])
         note(f"{len(done)} frame{'' if len(done) == 1 else 's'}: {', '.join(parts)}, {_seconds(began)}")
+
+
+def one_frame(scene: Path, wanted: str, pixel: str) -> Scene:
+    """The scene of the frame whose pixel is asked for.
+
+    Raises:
+        UsageError: more than one frame is named.
+    """
+    from illuminant.animation import Animation
+    from illuminant.errors import UsageError
+    from illuminant.frames import frame_numbers
+
+    animation = Animation.load(scene)
+    numbers = frame_numbers(wanted, animation.first, animation.last)
+    if len(numbers) > 1:
+        raise UsageError(f"--pixel {pixel}: goes with --frames for one frame, not {len(numbers)}.")
+    row = pixel.partition(",")[2].strip()
+    odd = not row.isdigit() or int(row) % 2 == 0  # rows are counted from 0, lines from 1
+    second = animation.fields == ("even-first" if odd else "odd-first")
+    return animation.still(numbers[0], int(second))
 
 
 def _seconds(began: float) -> str:

@@ -391,9 +391,13 @@ def render(
     with _Stop() as stop:
         from illuminant.job import Job
 
-        if frames is not None and pixel is None:
-            from illuminant.cli.frames import render_frames
+        if frames is not None:
+            from illuminant.cli.frames import one_frame, render_frames
 
+            if pixel is not None:
+                job = stop.watch(Job(one_frame(scene, frames, pixel), **options))
+                _print_path(job, pixel, sample or 0, json)
+                return
             saving = {"look": look, "rgb": rgb, "half": half}
             render_frames(scene, frames, output, options, saving, again=again, json=json, stop=stop)
             return
