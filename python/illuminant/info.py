@@ -343,6 +343,8 @@ def remake(
     if isinstance(settings.get("command"), str):  # of a contact sheet
         return f"{settings['command']} -o {shlex.quote(str(path))}"
     words = ["illuminant", "render", str(settings["scene"]), "-o", str(path)]
+    if _number(settings.get("frame")):
+        words += ["--frames", str(settings["frame"])]
     samples = settings.get("samples")
     if samples is not None:
         words += ["--samples", str(max(samples) if isinstance(samples, list) else samples)]

@@ -55,6 +55,7 @@ __all__ = [
     "next_range",
     "resized",
     "standard_error_fraction",
+    "stated",
 ]
 
 FAST_UNTIL, STEP = 64, 64
@@ -428,20 +429,27 @@ class Job:
 
     def _header(self, most: int, statistics: dict[str, Any]) -> dict[str, Any]:
         """How the image was made, with nothing in it that changes from run to run of the same image."""
-        import illuminant
-
-        camera = self.scene.description["camera"]
-        return {
-            "version": illuminant.__version__,
-            "scene": self.source,
-            "scene_hash": self.scene.hash(),
-            "size": list(camera["size"]),
-            **({"crop": list(camera["crop"])} if camera.get("crop") else {}),
+        return stated(self.scene, self.source, self.settings) | {
             # Where the work was cut off within a range, some pixels hold more than all do.
             "samples": self.done if most <= self.done else [self.done, most],
-            **self.settings.to_header(),
             "dropped": int(statistics.get("dropped", 0)),
         }
+
+
+def stated(scene: Scene, source: str, settings: Settings) -> dict[str, Any]:
+    """What the header of an image says of how it is made, as far as it is known before the work."""
+    import illuminant
+
+    camera = scene.description["camera"]
+    return {
+        "version": illuminant.__version__,
+        "scene": source,
+        "scene_hash": scene.hash(),
+        "size": list(camera["size"]),
+        **({"crop": list(camera["crop"])} if camera.get("crop") else {}),
+        "samples": settings.samples,
+        **settings.to_header(),
+    }
 
 
 def _scene(scene: Scene | str | os.PathLike[str]) -> tuple[Scene, str]:

@@ -51,16 +51,22 @@ class ObjectResolver:
         length_unit: unit of all lengths in the scene.
         up: axis of the world that is up.
         directory: folder that file names are relative to.
+        files: meshes that were read already, to be shared by scenes of one file; it grows.
     """
 
     def __init__(
-        self, report: Report, length_unit: str = "m", up: str = "y", directory: str | os.PathLike[str] = "."
+        self,
+        report: Report,
+        length_unit: str = "m",
+        up: str = "y",
+        directory: str | os.PathLike[str] = ".",
+        files: dict[tuple[Any, ...], shapes.Mesh | DataError] | None = None,
     ) -> None:
         self.report = report
         self.unit_m = placement.METRES[length_unit]
         self.up = up
         self.directory = FilePath(directory)
-        self._files: dict[tuple[Any, ...], shapes.Mesh | DataError] = {}
+        self._files = {} if files is None else files
         self._shared: dict[tuple[int, bool | None, bool], tuple[shapes.Mesh, dict[str, np.ndarray]]] = {}
 
     def placed(self, name: str, raw: Any, materials: Mapping[str, Any]) -> tuple[Placed, str] | None:

@@ -27,13 +27,15 @@ from illuminant.schema import Camera, Render, SceneFile
 if TYPE_CHECKING:
     import numpy as np
 
-__all__ = ["MAX_BYTES", "check", "load", "parse", "plain", "resolve", "schema_text", "shines"]
+__all__ = ["MAX_BYTES", "check", "load", "parse", "plain", "resolve", "schema_text", "shines", "still"]
 
 MAX_BYTES = 100_000_000
 """The largest scene file."""
 
 NO_LIGHT = "the scene has no light; expected an object with an emitter material, or a table [lights.NAME]"
-TABLES = ("camera", "render", "spectra", "materials", "objects", "lights", "atmosphere", "medium")
+TABLES = (
+    "camera", "render", "spectra", "materials", "objects", "lights", "atmosphere", "medium", "animation",
+)  # fmt: skip
 
 
 def load(path: str | os.PathLike[str]) -> Scene:
@@ -147,6 +149,29 @@ def schema_text() -> str:
 
 
 def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
+    if "animation" not in data:
+        return still(data, report, directory)
+    from illuminant.animation import Animation
+
+    animation = Animation.read(data, report, directory)
+    animation.check()
+    return animation.still(animation.first)
+
+
+def still(
+    data: Mapping[str, Any], report: Report, directory: Path, meshes: dict[tuple[Any, ...], Any] | None = None
+) -> Scene:
+    """A scene from the tables of a scene file, without `[animation]`.
+
+    Args:
+        data: the tables, as `plain` makes them.
+        report: takes the mistakes, and knows the lines.
+        directory: folder that file names are relative to.
+        meshes: files of meshes that were read already; it grows.
+
+    Raises:
+        SceneError: the report has mistakes.
+    """
     top = {key: value for key, value in data.items() if key not in TABLES}
     for key in TABLES:
         if key in data and not isinstance(data[key], dict):
@@ -181,7 +206,7 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
     lights = [resolver.light(name, raw) for name, raw in tables["lights"].items()]
     atmosphere = resolver.atmosphere(tables["atmosphere"]) if "atmosphere" in data else None
     medium = resolver.medium(tables["medium"]) if "medium" in data else None
-    placer = ObjectResolver(report, head.length_unit, head.up, directory)
+    placer = ObjectResolver(report, head.length_unit, head.up, directory, meshes)
     placed = {name: placer.placed(name, raw, materials) for name, raw in tables["objects"].items()}
     if not placed and not any(problem.table == "objects" for problem in report.problems):
         report.add(("objects",), "there is no object; expected a table [objects.NAME]", kind="no-objects")

@@ -49,6 +49,7 @@ TOPICS = (
     "test-patterns.md",
     "calibration.md",
     "develop.md",
+    "animation.md",
 )
 REFERENCE = ("scene-file.md", "command-line.md", "commands.md")
 PROOF = ("validation.md", "benchmarks.md", "benches.md")

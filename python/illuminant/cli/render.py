@@ -315,6 +315,18 @@ def render(
         bool,
         typer.Option("--resume", help="Go on from the checkpoint, if there is one, to the same bits."),
     ] = False,
+    frames: Annotated[
+        str | None,
+        typer.Option(
+            "--frames",
+            metavar="N-M",
+            help="Frames of the scene's [animation]: all, 12, 1-48, 1-48x2 or 5,7,9, into FILE with #### for the "
+            "number (SCENE.####.png). Finished ones are passed over.",
+        ),
+    ] = None,
+    again: Annotated[
+        bool, typer.Option("--again", help="With --frames: render finished ones too.", show_default=False)
+    ] = False,
     pixel: Annotated[
         str | None,
         typer.Option(
@@ -339,6 +351,7 @@ def render(
       illuminant render room.toml -o room.png
       illuminant render room.toml -o room.exr -o room.png --time 30s
       illuminant render room.toml --samples 4096 --checkpoint room.ckpt --resume
+      illuminant render turntable.toml --frames all -o turn.####.png
     """
     from illuminant.errors import UsageError
     from illuminant.image import check_output
@@ -348,8 +361,14 @@ def render(
     if pixel is None and sample is not None:
         raise UsageError(f"--sample {sample}: goes with --pixel, whose path it names.")
     keeper, before = _checkpoints(checkpoint, every, resume)
+    if again and frames is None:
+        raise UsageError("--again: goes with --frames, whose finished ones it renders too.")
+    if frames is not None and checkpoint is not None:
+        raise UsageError(
+            "--checkpoint: goes with one image; --frames passes over the frames that are finished."
+        )
     paths = list(dict.fromkeys(output or [Path(scene.stem + ".png")]))
-    if pixel is None:
+    if pixel is None and frames is None:
         for path in paths:
             check_output(path)
     look = asked_look(display, exposure, transfer, tone, gamut, dither, bits, seed or 0, pipeline)
@@ -399,6 +418,16 @@ def render(
     with _Stop() as stop:
         from illuminant.job import Job
 
+        if frames is not None:
+            from illuminant.cli.frames import one_frame, render_frames
+
+            if pixel is not None:
+                job = stop.watch(Job(one_frame(scene, frames, pixel), **options))
+                _print_path(job, pixel, sample or 0, json)
+                return
+            saving = {"look": look, "rgb": rgb, "half": half}
+            render_frames(scene, frames, output, options, saving, again=again, json=json, stop=stop)
+            return
         job = stop.watch(Job(scene, checkpoint=before, solve_by=done_by.get().solve_by, **options))
         if pixel is not None:
             _print_path(job, pixel, sample or 0, json)
