@@ -139,6 +139,7 @@ class Job:
         solution: the core's, where the light between surfaces has been solved for already.
         like: a job of the same scene with another camera or other settings, whose wavelengths are taken over: to fit
             them again takes longer than a first image of few pixels.
+        allow_outside, memory_limit: as for `illuminant.render`.
         options: as `illuminant.render`.
 
     Attributes:
@@ -154,9 +155,22 @@ class Job:
         *,
         solution: Any = None,
         like: Job | None = None,
+        allow_outside: bool = False,
+        memory_limit: int | str | None = None,
         **options: Any,
     ) -> None:
-        self.scene, self.source = _scene(scene)
+        with machine.limited_to(memory_limit):
+            self._prepare(scene, solution, like, allow_outside, options)
+
+    def _prepare(
+        self,
+        scene: Scene | str | os.PathLike[str],
+        solution: Any,
+        like: Job | None,
+        allow_outside: bool,
+        options: dict[str, Any],
+    ) -> None:
+        self.scene, self.source = _scene(scene, allow_outside)
         defaults = self.scene.render_defaults
         self.settings = resolve(defaults, **options)
         if self.settings.size is not None:
@@ -355,13 +369,13 @@ class Job:
         }
 
 
-def _scene(scene: Scene | str | os.PathLike[str]) -> tuple[Scene, str]:
+def _scene(scene: Scene | str | os.PathLike[str], allow_outside: bool) -> tuple[Scene, str]:
     """The scene, and the path that names it in a header."""
     from illuminant.scene import Scene
 
     if isinstance(scene, Scene):
         return scene, scene.path or ""
-    return Scene.load(scene), os.fspath(scene)
+    return Scene.load(scene, allow_outside=allow_outside), os.fspath(scene)
 
 
 def _pixels(scene: Scene) -> tuple[int, int]:

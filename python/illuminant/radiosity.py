@@ -17,16 +17,16 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
-import zipfile
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from illuminant import output
+from illuminant import archives, machine, output, sources
 from illuminant.core import core, embree
-from illuminant.errors import DataError, UsageError, suggestion
+from illuminant.errors import DataError, MachineError, UsageError, suggestion
 from illuminant.job import Job, OnProgress, held
 from illuminant.rendering import RenderInterrupted
 from illuminant.settings import SOLVED, Settings, resolve
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 __all__ = ["FORMAT", "Mesh", "Solution", "solve"]
 
 FORMAT = "illuminant solution 1"
+MOST_BYTES = 16_000_000_000
+"""The largest file of a solution."""
+
 MOST_LAMPS = 32
 """With more lamps than this their light is not kept apart."""
 
@@ -315,9 +318,8 @@ class Solution:
 
         name = os.fspath(path)
         try:
-            # NumPy leaves a file that it opened itself open when the file is damaged.
-            with open(name, "rb") as stream, np.load(stream, allow_pickle=False) as data:
-                arrays = {key: data[key] for key in data.files}
+            with sources.opened(name, MOST_BYTES) as stream:
+                arrays = archives.read(stream, name)
             header = json.loads(arrays.pop("header").tobytes())
             if header["format"] != FORMAT:
                 raise DataError(
@@ -334,11 +336,13 @@ class Solution:
             sound &= all(np.isfinite(arrays[key]).all() and (arrays[key] >= 0).all() for key in _NUMBERS)
             if not sound:
                 raise ValueError("numbers that cannot be")
-        except DataError:
+        except SourceError as error:
+            raise DataError(f"{name} cannot be read: {error.clause}.") from None
+        except (DataError, MachineError):
             raise
         except OSError as error:
             raise DataError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}.") from error
-        except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile) as error:
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             raise DataError(f"{name} is no solution of illuminant.") from error
         embree()
         try:
@@ -424,11 +428,18 @@ _OF_SOLUTION = (
 """The options by which a solution is made."""
 
 
-def solve(scene: Scene | str | os.PathLike[str], **options: Any) -> Solution:
+def solve(
+    scene: Scene | str | os.PathLike[str],
+    *,
+    allow_outside: bool = False,
+    memory_limit: int | str | None = None,
+    **options: Any,
+) -> Solution:
     """Solve for the light between the surfaces of a scene.
 
     Args:
         scene: a `Scene`, or the path of a scene file.
+        allow_outside, memory_limit: as for `illuminant.render`.
         options: as `illuminant.render` has them: `elements`, `patches`, `adaptive`, `form_factors`, `solver`,
             `light_samples`, `sampling`, `illumination`, `technique` (`radiosity`), `threads`.
 
@@ -443,7 +454,8 @@ def solve(scene: Scene | str | os.PathLike[str], **options: Any) -> Solution:
     from illuminant.scene import Scene
 
     if not isinstance(scene, Scene):
-        scene = Scene.load(scene)
+        with machine.limited_to(memory_limit):
+            scene = Scene.load(scene, allow_outside=allow_outside)
     defaults = dict(scene.render_defaults)
     if defaults.get("technique") not in SOLVED:
         defaults["technique"] = SOLVED[0]
@@ -452,7 +464,8 @@ def solve(scene: Scene | str | os.PathLike[str], **options: Any) -> Solution:
         raise UsageError(
             f"technique {settings.technique}: nothing is solved for; expected {' or '.join(SOLVED)}."
         )
-    job = Job(scene, **{field.name: getattr(settings, field.name) for field in dataclasses.fields(Settings)})
+    chosen = {field.name: getattr(settings, field.name) for field in dataclasses.fields(Settings)}
+    job = Job(scene, memory_limit=memory_limit, **chosen)
     return Solution(scene, settings, job.core_render.solution())
 
 

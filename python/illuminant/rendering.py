@@ -113,6 +113,8 @@ def render(
     mechanisms: str | Sequence[str] | None = None,
     frustum: int | None = None,
     cube: int | None = None,
+    allow_outside: bool = False,
+    memory_limit: int | str | None = None,
     progress: OnProgress | None = None,
     on_partial: Callable[[Image], object] | None = None,
 ) -> Image:
@@ -171,6 +173,8 @@ def render(
         frustum: rays along an edge of the frustum in which `hybrid` samples what rough surfaces mirror; default one
             ray, drawn.
         cube: cells along an edge of the cubes into which each patch of `specular-radiosity` sends light; default 32.
+        allow_outside: let a scene file name files outside its folder: only for scenes that you trust. Default False.
+        memory_limit: refuse the work if it would take more memory than this: bytes, or `"4GB"`; default what is free.
         progress: called about ten times a second with a `Progress`; returning False ends the render with what
             is done.
         on_partial: called after each range with the image so far.
@@ -228,6 +232,8 @@ def render(
         mechanisms=mechanisms,
         frustum=frustum,
         cube=cube,
+        allow_outside=allow_outside,
+        memory_limit=memory_limit,
     )
     _log_warnings(job)
     for _ in job.passes(progress):

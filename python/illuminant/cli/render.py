@@ -11,6 +11,7 @@ import typer
 from illuminant.cli.look import asked_look
 from illuminant.cli.options import (
     Adaptive,
+    AllowOutside,
     Bits,
     DisplayName,
     DitherName,
@@ -21,6 +22,7 @@ from illuminant.cli.options import (
     Gather,
     Json,
     LightSamples,
+    MemoryLimit,
     Patches,
     Pipeline,
     SceneFile,
@@ -306,6 +308,8 @@ def render(
         int | None,
         typer.Option("--sample", metavar="K", help="Which path of that pixel (0).", show_default=False),
     ] = None,
+    allow_outside: AllowOutside = False,
+    memory_limit: MemoryLimit = None,
     json: Json = False,
 ) -> None:
     """Render a scene to an image.
@@ -376,14 +380,20 @@ def render(
     with _Stop() as stop:
         from illuminant.job import Job
 
-        job = stop.watch(Job(scene, **options))
+        job = stop.watch(Job(scene, allow_outside=allow_outside, memory_limit=memory_limit, **options))
         if pixel is not None:
             _print_path(job, pixel, sample or 0, json)
         else:
-            _render(job, paths, {"look": look, "rgb": rgb, "half": half}, _again(scene, options), json)
+            _render(
+                job,
+                paths,
+                {"look": look, "rgb": rgb, "half": half},
+                _again(scene, options, allow_outside),
+                json,
+            )
 
 
-def _again(scene: Path, options: dict[str, Any]) -> str:
+def _again(scene: Path, options: dict[str, Any], allow_outside: bool) -> str:
     """The command that follows a path of this render again, up to the pixel: all that changes random numbers."""
     import shlex
 
@@ -391,6 +401,7 @@ def _again(scene: Path, options: dict[str, Any]) -> str:
     words = {f"--{name}": options[name] for name in names} | {"--develop-for": options["develop_for"]}
     given = [part for word, value in words.items() if value is not None for part in (word, str(value))]
     given += ["--caustics"] if options["caustics"] else []
+    given += ["--allow-outside"] if allow_outside else []
     return shlex.join(["illuminant", "render", str(scene), *given])
 
 
