@@ -29,7 +29,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from illuminant import machine
+from illuminant import job_memory, machine
 from illuminant.core import core, embree
 from illuminant.errors import Error, MachineError, UsageError
 from illuminant.examination import WORDS, refuse
@@ -186,6 +186,7 @@ class Job:
         lamps += sum(thing["emission"] is not None for thing in description["objects"])
         check_memory(self.settings, width * height, lamps)
         check_shadow_maps(self.settings, description)
+        job_memory.check(self.settings, self.scene, width * height, lamps)
         embree()
         self._began = clock.monotonic()
         try:

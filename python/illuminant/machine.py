@@ -172,16 +172,17 @@ def refuse(what: str, needed: int, advice: str = "") -> None:
     Raises:
         MachineError: one sentence with both amounts.
     """
-    free, left = _free(), _left()
+    free, left = memory_available(), _left()
+    if free is None or needed <= free:
+        return
     end = f": {advice}." if advice else "."
-    if left is not None and needed > left:
+    if left is not None and left <= free:
         held, limit = resident(), _limit.get() or 0
         raise MachineError(
             f"{what} needs about {size(needed)} of memory beside the {size(held)} in use, and --memory-limit is "
             f"{size(limit)}{end}"
         )
-    if free is not None and needed > free:
-        raise MachineError(f"{what} needs about {size(needed)} of memory, and {size(free)} are free{end}")
+    raise MachineError(f"{what} needs about {size(needed)} of memory, and {size(free)} are free{end}")
 
 
 def peak_memory() -> int:

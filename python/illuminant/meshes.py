@@ -47,7 +47,7 @@ MOST_VERTICES = 100_000_000
 MOST_FACES = 100_000_000
 """Triangles of a mesh at most."""
 
-BYTES_A_BYTE, BYTES_A_LETTER = 6, 30
+BYTES_A_BYTE, BYTES_A_LETTER = 17, 12
 """Memory that a byte of a file takes while it is read: of numbers in binary, and in text."""
 
 BYTES_A_VERTEX, BYTES_A_FACE = 130, 50
