@@ -192,13 +192,18 @@ class Animation:
     fields: str
     directory: FilePath
     report: Report
+    allow_outside: bool = False
     meshes: dict[tuple[Any, ...], Any] = field(default_factory=dict, repr=False)
 
     # --- making ----------------------------------------------------------------------------------------------------
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Animation:
+    def load(cls, path: str | os.PathLike[str], *, allow_outside: bool = False) -> Animation:
         """Read a scene file with a table `[animation]`, and check it.
+
+        Args:
+            path: the scene file.
+            allow_outside: whether files that it names may lie outside its folder.
 
         Raises:
             SceneError: the file cannot be read, has mistakes (all of them are in `problems`), or has no such table.
@@ -206,7 +211,7 @@ class Animation:
         from illuminant import scene_file
 
         data, report = scene_file.parse(path)
-        return cls._checked(data, report, FilePath(path).parent)
+        return cls._checked(data, report, FilePath(path).parent, allow_outside)
 
     @classmethod
     def build(cls, tables: Mapping[str, Any], directory: str | os.PathLike[str] = ".") -> Animation:
@@ -221,26 +226,31 @@ class Animation:
         """
         from illuminant import scene_file
 
-        return cls._checked(scene_file.plain(tables), Report(), FilePath(directory))
+        return cls._checked(scene_file.plain(tables), Report(), FilePath(directory), allow_outside=True)
 
     @classmethod
-    def _checked(cls, data: dict[str, Any], report: Report, directory: FilePath) -> Animation:
+    def _checked(
+        cls, data: dict[str, Any], report: Report, directory: FilePath, allow_outside: bool
+    ) -> Animation:
         if "animation" not in data:
             message = "is missing, so the scene has no frames; expected a table with frames and keys"
             report.add(("animation",), message, kind="missing-key")
             report.raise_if_any()
-        animation = cls.read(data, report, directory)
+        animation = cls.read(data, report, directory, allow_outside=allow_outside)
         animation.check()
         return animation
 
     @classmethod
-    def read(cls, data: Mapping[str, Any], report: Report, directory: FilePath) -> Animation:
+    def read(
+        cls, data: Mapping[str, Any], report: Report, directory: FilePath, *, allow_outside: bool = False
+    ) -> Animation:
         """The animation of a scene file; mistakes of its form go to the report.
 
         Args:
             data: the tables of the file.
             report: takes the mistakes.
             directory: folder that file names are relative to.
+            allow_outside: whether files may lie outside that folder.
         """
         raw = data["animation"]
         keys = raw.get("keys", {}) if isinstance(raw, dict) else {}
@@ -261,7 +271,7 @@ class Animation:
             if track is not None:
                 _check_alone(track, tracks, report)
                 tracks.append(track)
-        return cls(tables, tuple(tracks), first, last, rate, table.fields, directory, report)
+        return cls(tables, tuple(tracks), first, last, rate, table.fields, directory, report, allow_outside)
 
     # --- times -----------------------------------------------------------------------------------------------------
 
@@ -302,7 +312,13 @@ class Animation:
         time = self.time(frame, field)
         duration = float(1 / (self.frames_per_second * self.times_of_fields))
         moment = _Moment(self, time, [], set())
-        return scene_file.still(self._moving(time, duration), moment, self.directory, self.meshes)
+        return scene_file.still(
+            self._moving(time, duration),
+            moment,
+            self.directory,
+            self.meshes,
+            allow_outside=self.allow_outside,
+        )
 
     def check(self) -> None:
         """Look for mistakes in the first frame and at the times of keyframes.
@@ -319,7 +335,9 @@ class Animation:
         for time in [self.time(self.first), *keys]:
             moment = _Moment(self, time, self.report.problems, said)
             with suppress(SceneError):
-                scene_file.still(self.data(time), moment, self.directory, self.meshes)
+                scene_file.still(
+                    self.data(time), moment, self.directory, self.meshes, allow_outside=self.allow_outside
+                )
         self.report.raise_if_any()
 
     # --- while the shutter is open ---------------------------------------------------------------------------------

@@ -28,17 +28,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from illuminant import output
+from illuminant import output, sources
 from illuminant.errors import DataError, Error, UsageError
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     from illuminant.job import Job
 
-__all__ = ["MAX_HEADER", "Checkpoint", "Keeper", "resumed"]
+__all__ = ["MAX_BYTES", "MAX_HEADER", "Checkpoint", "Keeper", "resumed"]
 
 FIRST_LINE = b"illuminant checkpoint 1\n"
 MAX_HEADER = 1_000_000
 """The longest header, bytes."""
+
+MAX_BYTES = 64_000_000_000
+"""The largest checkpoint."""
 
 _DIGEST = 32
 _MISSING = object()
@@ -95,10 +99,9 @@ class Checkpoint:
         """
         name = os.fspath(path)
         try:
-            with open(path, "rb") as file:
-                content = file.read()
-        except OSError as error:
-            raise DataError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}.") from error
+            content = sources.read(path, MAX_BYTES)
+        except SourceError as error:
+            raise DataError(f"{name} cannot be read: {error.clause}.") from None
         return cls.from_bytes(content, name)
 
     @classmethod

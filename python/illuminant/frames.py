@@ -106,6 +106,12 @@ def file_of(pattern: str | os.PathLike[str], number: int) -> Path:
     return path.with_name(re.sub("#+", lambda run: f"{number:0{len(run[0])}d}", name))
 
 
+def followed(job: Job, progress: OnProgress | None) -> None:
+    """Do the work of a render in this process."""
+    for _ in job.passes(progress):
+        pass
+
+
 def render_frames(
     scene: Animation | str | os.PathLike[str],
     frames: str = "all",
@@ -117,6 +123,8 @@ def render_frames(
     half: bool = False,
     save: Callable[..., Saved] = Image.save,
     on_job: Callable[[Job], object] | None = None,
+    follow: Callable[[Job, OnProgress | None], object] = followed,
+    allow_outside: bool = False,
     progress: OnProgress | None = None,
     **options: Any,
 ) -> Iterator[Frame]:
@@ -130,6 +138,8 @@ def render_frames(
         look, rgb, half: as for `Image.save`.
         save: saves an image, with the arguments of `Image.save`.
         on_job: called with each render before it begins, so that it can be interrupted from outside.
+        follow: does the work of a render: this process, or a farm.
+        allow_outside: whether files that the scene names may lie outside its folder.
         progress: as for `illuminant.render`.
         options: as for `illuminant.render`.
 
@@ -142,7 +152,7 @@ def render_frames(
         ImageError, MachineError: a file cannot be written.
         Interrupted: Ctrl-C; the frame that was under way is not written.
     """
-    animation = scene if isinstance(scene, Animation) else Animation.load(scene)
+    animation = scene if isinstance(scene, Animation) else Animation.load(scene, allow_outside=allow_outside)
     numbers = frame_numbers(frames, animation.first, animation.last)
     sequence = _Sequence(animation, _patterns(output, animation, len(numbers)), options, look, rgb, half)
     for number in numbers:
@@ -165,8 +175,7 @@ def render_frames(
             job = Job(one, **options)
             if on_job is not None:
                 on_job(job)
-            for _ in job.passes(progress):
-                pass
+            follow(job, progress)
             if job.interrupted or job.stopped:
                 there = f"{done} of {len(numbers)} frames are there" if len(numbers) > 1 else "nothing is"
                 raise Interrupted(

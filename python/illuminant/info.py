@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from illuminant import embree as embree_library
-from illuminant import machine, processor
+from illuminant import machine, processor, sources
 from illuminant.core import core, embree
 from illuminant.errors import Error, ImageError, UsageError
 
@@ -151,7 +151,7 @@ def _run_length_facts(path: Path) -> dict[str, Any]:
 
     picture = Picture.open(path)
     display = picture.display
-    packed = run_length.compression(path.read_bytes(), str(path))
+    packed = run_length.compression(sources.read(path, sys.maxsize), str(path))
     matte = "" if picture.matte is None else " and a matte"
     light = "linear" if display.gamma in (None, 1.0) else f"γ = {display.gamma:g}"
     primaries = ", ".join(f"({x:g}, {y:g})" for x, y in display.primaries)

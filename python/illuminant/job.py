@@ -29,7 +29,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from illuminant import machine
+from illuminant import job_memory, machine
 from illuminant.checkpoint import Checkpoint, Keeper
 from illuminant.core import core, embree
 from illuminant.errors import DataError, Error, MachineError, UsageError
@@ -146,6 +146,7 @@ class Job:
         checkpoint: of the same render, which goes on from there.
         solve_by: solves for the light between surfaces in place of this process's threads: takes the scene and the
             settings, and returns the core's solution, or None to leave it to them.
+        allow_outside, memory_limit: as for `illuminant.render`.
         options: as `illuminant.render`.
 
     Attributes:
@@ -163,9 +164,24 @@ class Job:
         like: Job | None = None,
         checkpoint: Checkpoint | None = None,
         solve_by: Callable[[Scene, Settings], Any] | None = None,
+        allow_outside: bool = False,
+        memory_limit: int | str | None = None,
         **options: Any,
     ) -> None:
-        self.scene, self.source = _scene(scene)
+        with machine.limited_to(memory_limit):
+            self._prepare(scene, solution, like, checkpoint, solve_by, allow_outside, options)
+
+    def _prepare(
+        self,
+        scene: Scene | str | os.PathLike[str],
+        solution: Any,
+        like: Job | None,
+        checkpoint: Checkpoint | None,
+        solve_by: Callable[[Scene, Settings], Any] | None,
+        allow_outside: bool,
+        options: dict[str, Any],
+    ) -> None:
+        self.scene, self.source = _scene(scene, allow_outside)
         defaults = self.scene.render_defaults
         self.settings = resolve(defaults, **options)
         if self.settings.size is not None:
@@ -181,6 +197,7 @@ class Job:
         lamps += sum(thing["emission"] is not None for thing in description["objects"])
         check_memory(self.settings, width * height, lamps)
         check_shadow_maps(self.settings, description)
+        job_memory.check(self.settings, self.scene, width * height, lamps)
         embree()
         self._spent, self._kept_solution = 0.0, b""
         if checkpoint is not None:
@@ -452,13 +469,13 @@ def stated(scene: Scene, source: str, settings: Settings) -> dict[str, Any]:
     }
 
 
-def _scene(scene: Scene | str | os.PathLike[str]) -> tuple[Scene, str]:
+def _scene(scene: Scene | str | os.PathLike[str], allow_outside: bool) -> tuple[Scene, str]:
     """The scene, and the path that names it in a header."""
     from illuminant.scene import Scene
 
     if isinstance(scene, Scene):
         return scene, scene.path or ""
-    return Scene.load(scene), os.fspath(scene)
+    return Scene.load(scene, allow_outside=allow_outside), os.fspath(scene)
 
 
 def _pixels(scene: Scene) -> tuple[int, int]:

@@ -17,16 +17,16 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
-import zipfile
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
-from illuminant import output
+from illuminant import archives, machine, output, sources
 from illuminant.core import core, embree
-from illuminant.errors import DataError, UsageError, suggestion
+from illuminant.errors import DataError, MachineError, UsageError, suggestion
 from illuminant.job import Job, OnProgress, held
 from illuminant.rendering import RenderInterrupted
 from illuminant.settings import SOLVED, Settings, resolve
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 __all__ = ["FORMAT", "Mesh", "Solution", "solve"]
 
 FORMAT = "illuminant solution 1"
+MOST_BYTES = 16_000_000_000
+"""The largest file of a solution."""
+
 MOST_LAMPS = 32
 """With more lamps than this their light is not kept apart."""
 
@@ -324,24 +327,26 @@ class Solution:
         """
         name = os.fspath(path)
         try:
-            with open(name, "rb") as stream:
-                content = stream.read()
-        except OSError as error:
-            raise DataError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}.") from error
-        return cls.from_bytes(content, name)
+            with sources.opened(name, MOST_BYTES) as stream:
+                return cls._read(stream, name)
+        except SourceError as error:
+            raise DataError(f"{name} cannot be read: {error.clause}.") from None
 
     @classmethod
     def from_bytes(cls, content: bytes, name: str = "the solution") -> Solution:
         """As `load`, of the bytes of a file; `name` is what errors call it."""
         import io
 
+        return cls._read(io.BytesIO(content), name)
+
+    @classmethod
+    def _read(cls, stream: IO[bytes], name: str) -> Solution:
         import numpy as np
 
         from illuminant.scene import Scene
 
         try:
-            with np.load(io.BytesIO(content), allow_pickle=False) as data:
-                arrays = {key: data[key] for key in data.files}
+            arrays = archives.read(stream, name)
             header = json.loads(arrays.pop("header").tobytes())
             if header["format"] != FORMAT:
                 raise DataError(
@@ -358,17 +363,9 @@ class Solution:
             sound &= all(np.isfinite(arrays[key]).all() and (arrays[key] >= 0).all() for key in _NUMBERS)
             if not sound:
                 raise ValueError("numbers that cannot be")
-        except DataError:
+        except (DataError, MachineError, SourceError):
             raise
-        except (
-            OSError,
-            ValueError,
-            KeyError,
-            TypeError,
-            AttributeError,
-            EOFError,
-            zipfile.BadZipFile,
-        ) as error:
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             raise DataError(f"{name} is no solution of illuminant.") from error
         embree()
         try:
@@ -454,12 +451,20 @@ _OF_SOLUTION = (
 """The options by which a solution is made."""
 
 
-def solve(scene: Scene | str | os.PathLike[str], *, cancel: Any = None, **options: Any) -> Solution:
+def solve(
+    scene: Scene | str | os.PathLike[str],
+    *,
+    cancel: Any = None,
+    allow_outside: bool = False,
+    memory_limit: int | str | None = None,
+    **options: Any,
+) -> Solution:
     """Solve for the light between the surfaces of a scene; Ctrl-C ends it.
 
     Args:
         scene: a `Scene`, or the path of a scene file.
         cancel: a `Cancel` of the core, which ends the work from another thread with the core's `Cancelled`.
+        allow_outside, memory_limit: as for `illuminant.render`.
         options: as `illuminant.render` has them: `elements`, `patches`, `adaptive`, `form_factors`, `solver`,
             `light_samples`, `sampling`, `illumination`, `technique` (`radiosity`), `threads`.
 
@@ -474,7 +479,8 @@ def solve(scene: Scene | str | os.PathLike[str], *, cancel: Any = None, **option
     from illuminant.scene import Scene
 
     if not isinstance(scene, Scene):
-        scene = Scene.load(scene)
+        with machine.limited_to(memory_limit):
+            scene = Scene.load(scene, allow_outside=allow_outside)
     defaults = dict(scene.render_defaults)
     if defaults.get("technique") not in SOLVED:
         defaults["technique"] = SOLVED[0]
@@ -488,7 +494,7 @@ def solve(scene: Scene | str | os.PathLike[str], *, cancel: Any = None, **option
         return core().Solution(scene.core(settings.threads), settings.to_core(), cancel)
 
     chosen = {field.name: getattr(settings, field.name) for field in dataclasses.fields(Settings)}
-    job = Job(scene, solve_by=None if cancel is None else solve_by, **chosen)
+    job = Job(scene, solve_by=None if cancel is None else solve_by, memory_limit=memory_limit, **chosen)
     return Solution(scene, settings, job.core_render.solution())
 
 

@@ -116,6 +116,8 @@ def render(
     checkpoint: str | os.PathLike[str] | None = None,
     every: str | float = 60.0,
     resume: bool = False,
+    allow_outside: bool = False,
+    memory_limit: int | str | None = None,
     progress: OnProgress | None = None,
     on_partial: Callable[[Image], object] | None = None,
 ) -> Image:
@@ -178,6 +180,8 @@ def render(
         every: time between checkpoints: seconds, or `"60s"`, `"5m"`. One that cannot be written goes to the log.
         resume: go on from that file, if there is one, to the bits of a render that was never cut off. More `samples`
             than before may be asked for.
+        allow_outside: let a scene file name files outside its folder: only for scenes that you trust. Default False.
+        memory_limit: refuse the work if it would take more memory than this: bytes, or `"4GB"`; default what is free.
         progress: called about ten times a second with a `Progress`; returning False ends the render with what
             is done.
         on_partial: called after each range with the image so far.
@@ -244,6 +248,8 @@ def render(
         mechanisms=mechanisms,
         frustum=frustum,
         cube=cube,
+        allow_outside=allow_outside,
+        memory_limit=memory_limit,
     )
     _log_warnings(job)
     for _ in job.passes(progress, keeper):

@@ -39,11 +39,14 @@ def render_frames(
     """
     from illuminant import frames
     from illuminant.animation import Animation
-    from illuminant.cli.render import _save
+    from illuminant.cli.render import _save, done_by
     from illuminant.cli.report import emit_json, note, progress_bar, warning
 
     began = time.monotonic()
-    animation = Animation.load(scene)
+    options = dict(options)
+    allow_outside = options.pop("allow_outside")
+    animation = Animation.load(scene, allow_outside=allow_outside)
+    worker = done_by.get()
     done: list[dict[str, Any]] = []
     warned: set[str] = set()
 
@@ -65,13 +68,14 @@ def render_frames(
             again=again,
             save=save,
             on_job=watch,
+            follow=lambda job, progress: worker.follow(job, progress, None),
             progress=bar,
             **look,
             **options,
         )
         try:
             for frame in made:
-                facts = _facts(frame, scene, options)
+                facts = _facts(frame, scene, options, allow_outside)
                 done.append(facts)
                 if not json:
                     note(_line(facts))
@@ -86,7 +90,7 @@ def render_frames(
         note(f"{len(done)} frame{'' if len(done) == 1 else 's'}: {', '.join(parts)}, {_seconds(began)}")
 
 
-def one_frame(scene: Path, wanted: str, pixel: str) -> Scene:
+def one_frame(scene: Path, wanted: str, pixel: str, *, allow_outside: bool) -> Scene:
     """The scene of the frame whose pixel is asked for.
 
     Raises:
@@ -96,7 +100,7 @@ def one_frame(scene: Path, wanted: str, pixel: str) -> Scene:
     from illuminant.errors import UsageError
     from illuminant.frames import frame_numbers
 
-    animation = Animation.load(scene)
+    animation = Animation.load(scene, allow_outside=allow_outside)
     numbers = frame_numbers(wanted, animation.first, animation.last)
     if len(numbers) > 1:
         raise UsageError(f"--pixel {pixel}: goes with --frames for one frame, not {len(numbers)}.")
@@ -110,14 +114,14 @@ def _seconds(began: float) -> str:
     return f"{time.monotonic() - began:.1f} s"
 
 
-def _facts(frame: Frame, scene: Path, options: dict[str, Any]) -> dict[str, Any]:
+def _facts(frame: Frame, scene: Path, options: dict[str, Any], allow_outside: bool) -> dict[str, Any]:
     """What is said of a frame: as of a still image, with its number and time."""
     from illuminant.cli.render import _again, _facts, _say_dropped
 
     facts: dict[str, Any] = {"frame": frame.number, "time_s": frame.time_s, "skipped": frame.skipped}
     if frame.image is None:
         return facts | {"files": list(frame.files)}
-    again = f"{_again(scene, options)} --frames {frame.number}"
+    again = f"{_again(scene, options, allow_outside)} --frames {frame.number}"
     rest = _facts(frame.jobs[0], frame.image, list(frame.saved), again)
     _say_dropped(rest)
     return facts | rest

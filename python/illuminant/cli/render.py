@@ -12,6 +12,7 @@ import typer
 from illuminant.cli.look import asked_look
 from illuminant.cli.options import (
     Adaptive,
+    AllowOutside,
     Bits,
     DisplayName,
     DitherName,
@@ -22,6 +23,7 @@ from illuminant.cli.options import (
     Gather,
     Json,
     LightSamples,
+    MemoryLimit,
     Patches,
     Pipeline,
     SceneFile,
@@ -339,6 +341,8 @@ def render(
         int | None,
         typer.Option("--sample", metavar="K", help="Which path of that pixel (0).", show_default=False),
     ] = None,
+    allow_outside: AllowOutside = False,
+    memory_limit: MemoryLimit = None,
     json: Json = False,
 ) -> None:
     """Render a scene to an image.
@@ -421,23 +425,39 @@ def render(
         if frames is not None:
             from illuminant.cli.frames import one_frame, render_frames
 
+            bounds = {"allow_outside": allow_outside, "memory_limit": memory_limit}
             if pixel is not None:
-                job = stop.watch(Job(one_frame(scene, frames, pixel), **options))
+                still = one_frame(scene, frames, pixel, allow_outside=allow_outside)
+                job = stop.watch(Job(still, memory_limit=memory_limit, **options))
                 _print_path(job, pixel, sample or 0, json)
                 return
             saving = {"look": look, "rgb": rgb, "half": half}
-            render_frames(scene, frames, output, options, saving, again=again, json=json, stop=stop)
+            render_frames(scene, frames, output, options | bounds, saving, again=again, json=json, stop=stop)
             return
-        job = stop.watch(Job(scene, checkpoint=before, solve_by=done_by.get().solve_by, **options))
+        job = stop.watch(
+            Job(
+                scene,
+                checkpoint=before,
+                solve_by=done_by.get().solve_by,
+                allow_outside=allow_outside,
+                memory_limit=memory_limit,
+                **options,
+            )
+        )
         if pixel is not None:
             _print_path(job, pixel, sample or 0, json)
         else:
             _render(
-                job, paths, {"look": look, "rgb": rgb, "half": half}, _again(scene, options), json, keeper
+                job,
+                paths,
+                {"look": look, "rgb": rgb, "half": half},
+                _again(scene, options, allow_outside),
+                json,
+                keeper,
             )
 
 
-def _again(scene: Path, options: dict[str, Any]) -> str:
+def _again(scene: Path, options: dict[str, Any], allow_outside: bool) -> str:
     """The command that follows a path of this render again, up to the pixel: all that changes random numbers."""
     import shlex
 
@@ -445,6 +465,7 @@ def _again(scene: Path, options: dict[str, Any]) -> str:
     words = {f"--{name}": options[name] for name in names} | {"--develop-for": options["develop_for"]}
     given = [part for word, value in words.items() if value is not None for part in (word, str(value))]
     given += ["--caustics"] if options["caustics"] else []
+    given += ["--allow-outside"] if allow_outside else []
     return shlex.join(["illuminant", "render", str(scene), *given])
 
 

@@ -9,16 +9,10 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from illuminant.image import Image
-
-__all__ = ["Brought", "Rows", "Work", "frame", "rows", "share"]
-
-Fetch = Callable[[Any], bytes]
+__all__ = ["Brought", "Rows", "Work", "rows", "share"]
 
 
 @dataclass(frozen=True)
@@ -141,22 +135,3 @@ def rows(work: Work, first: int, last: int) -> Rows:
         _kept[key] = core().RowFinder(Scene.from_bytes(scene).core(work.threads), work.settings)
     starts, columns, values = _kept[key].find(first, last)
     return Rows(first, starts, columns, values, os.getpid())
-
-
-def frame(references: list[Any], options: dict[str, Any]) -> Image:
-    """Render a whole scene, such as a frame of an animation.
-
-    Args:
-        references: the scene's bytes, in a list.
-        options: as for `illuminant.render`.
-    """
-    import ray
-
-    from illuminant.job import Job
-    from illuminant.scene import Scene
-
-    (scene,) = ray.get(references)
-    job = Job(Scene.from_bytes(scene), **options)
-    for _ in job.passes():
-        pass
-    return job.image()

@@ -12,8 +12,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from illuminant import output
+from illuminant import output, sources
 from illuminant.errors import Error, UsageError
+from illuminant.scene_file import MAX_BYTES
 from illuminant.viewer.tables import relocate
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def scene(session: Session) -> list[Path]:
         raise UsageError("Only a scene that was read from a file can be written.")
     import tomlkit
 
-    document: Any = tomlkit.parse(Path(path).read_text(encoding="utf-8"))
+    document: Any = tomlkit.parse(sources.read(path, MAX_BYTES).decode("utf-8-sig"))
     for kind in ("materials", "lights"):
         before, now = session.start.tables.get(kind, {}), session.state.tables.get(kind, {})
         for name, table in now.items():
