@@ -147,6 +147,9 @@ class _Moment(Report):
                 return
             self.said.add(once)
         if track is not None:
+            if self.time not in track.times and (track.path, "") in self.said:
+                return  # what it holds beside its values comes from them
+            self.said.add((track.path, ""))
             place: Path = ("animation", "keys", track.name, "values")
             if self.time in track.times:
                 place = (*place, track.times.index(self.time))

@@ -225,7 +225,8 @@ def _sentence(
         )
     if sort in ("too_short", "too_long"):
         wanted = context.get("min_length" if sort == "too_short" else "max_length")
-        return f"must have {wanted} entries, found {context.get('actual_length')}", "", "length"
+        entries = "at least 1 entry" if wanted == 1 else f"{wanted} entries"
+        return f"must have {entries}, found {context.get('actual_length')}", "", "length"
     if sort in _EXPECTED:
         return f"must be {_EXPECTED[sort]}, found {found(value)}", "", "type"
     if sort.endswith("_form"):

@@ -308,6 +308,18 @@ def test_a_mistake_of_the_still_scene_is_said_once_whatever_moves(tmp_path):
     ]
 
 
+def test_a_wrong_value_is_reported_once_though_it_is_held(tmp_path):
+    text = keyed("materials.grey.reflectance", "[0, 0.5]", "[0.5, -1]") + (
+        '[animation.keys."camera.eye"]\ntimes = [0, 1]\nvalues = [[0, 1, 4], [1, 1, 4]]\n'
+        '[animation.keys."camera.field_of_view"]\ntimes = []\nvalues = []\n'
+    )
+    problems = problems_of(text, tmp_path)
+    assert [(problem.key, problem.line) for problem in problems] == [
+        ("values[1]", LINE + 2), ("times", LINE + 7), ("values", LINE + 8),
+    ]  # fmt: skip
+    assert "must have at least 1 entry, found 0" in str(problems[1])
+
+
 def test_a_mistake_between_keyframes_is_found_in_its_frame(tmp_path):
     """The eye passes through the target halfway."""
     path = tmp_path / "a.toml"
