@@ -125,6 +125,7 @@ def render_frames(
     on_job: Callable[[Job], object] | None = None,
     follow: Callable[[Job, OnProgress | None], object] = followed,
     allow_outside: bool = False,
+    memory_limit: int | str | None = None,
     progress: OnProgress | None = None,
     **options: Any,
 ) -> Iterator[Frame]:
@@ -140,6 +141,7 @@ def render_frames(
         on_job: called with each render before it begins, so that it can be interrupted from outside.
         follow: does the work of a render: this process, or a farm.
         allow_outside: whether files that the scene names may lie outside its folder.
+        memory_limit: as for `illuminant.render`.
         progress: as for `illuminant.render`.
         options: as for `illuminant.render`.
 
@@ -172,7 +174,7 @@ def render_frames(
             if before is not None:
                 one.share_geometry(before)
             before = one
-            job = Job(one, **options)
+            job = Job(one, memory_limit=memory_limit, **options)
             if on_job is not None:
                 on_job(job)
             follow(job, progress)

@@ -44,7 +44,7 @@ def render_frames(
 
     began = time.monotonic()
     options = dict(options)
-    allow_outside = options.pop("allow_outside")
+    allow_outside, memory_limit = options.pop("allow_outside"), options.pop("memory_limit")
     animation = Animation.load(scene, allow_outside=allow_outside)
     worker = done_by.get()
     done: list[dict[str, Any]] = []
@@ -70,6 +70,7 @@ def render_frames(
             on_job=watch,
             follow=lambda job, progress: worker.follow(job, progress, None),
             progress=bar,
+            memory_limit=memory_limit,
             **look,
             **options,
         )
