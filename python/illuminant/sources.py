@@ -162,8 +162,13 @@ def read(path: str | os.PathLike[str], most: int) -> bytes:
         with opened(path, most) as stream:
             if (size := os.fstat(stream.fileno()).st_size) >= WORTH_A_LOOK:
                 machine.check_file(file, size)
-            # A file may grow while it is read, and those of /proc state no size.
-            content = stream.read(most + 1)
+            # A file may grow while it is read, and those of /proc state no size; so piece by piece, and each no larger
+            # than what is there: a reader makes room for all that it is asked for.
+            pieces, left = [], most + 1
+            while left and (piece := stream.read(min(left, max(size + 1, 1_000_000)))):
+                pieces.append(piece)
+                left -= len(piece)
+            content = pieces[0] if len(pieces) == 1 else b"".join(pieces)
     except OSError as error:
         if isinstance(error, MachineError):
             raise
