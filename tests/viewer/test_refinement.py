@@ -1,8 +1,10 @@
 """The refiner without a page: frames come in order, what is asked for later wins, solutions are relit."""
 
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -78,8 +80,6 @@ def test_a_moved_camera_keeps_the_wavelengths_and_another_lamp_does_not(cornell)
 
 
 def test_a_solution_found_elsewhere_is_relit(cornell):
-    from dataclasses import replace
-
     state = replace(cornell, technique="radiosity")
     options = {"elements": 200, "sampling": state.sampling, "form_factors": "rays:16", "light_samples": 4}
     found = radiosity.solve(state.scene, technique="radiosity", **options)
@@ -97,8 +97,6 @@ def test_a_solution_found_elsewhere_is_relit(cornell):
 
 
 def test_maps_of_illuminance_become_finer_until_something_else_is_asked_for(cornell):
-    from dataclasses import replace
-
     with refiner() as (made, frames, wrong):
         made.ask(cornell, camera(cornell), illuminance=True)
 
@@ -149,3 +147,21 @@ def test_a_closed_refiner_keeps_nothing(cornell):
         until(lambda: job() is None, 30.0)
     finally:
         gc.enable()
+
+
+def test_a_solution_that_nobody_waits_for_is_cancelled(cornell):
+    """A long one gives way to one of fewer elements, and ends with its page."""
+    long = replace(cornell, technique="radiosity", elements=60_000)
+    short = replace(long, elements=300)
+    with refiner() as (made, _, wrong):
+        made.ask(long, camera(long))
+        until(lambda: made._solving is long)
+        made.ask(short, camera(short))
+        until(lambda: made.solution_for(short) is not None)
+        assert made.solved == 1, "the long one came to its end"
+        made.ask(long, camera(long))
+        until(lambda: made._solving is long)
+        solving = next(one for one in threading.enumerate() if one.name == "illuminant solver")
+    solving.join(30.0)
+    assert not solving.is_alive()
+    assert wrong == []

@@ -119,6 +119,7 @@ class Refiner:
         """How many solutions were found anew, not relit; each has elements of its own."""
         self._solved_for: State | None = None
         self._solving: State | None = None
+        self._cancel: Any = None
         self._latest: Request | None = None
         self.relit_seconds: float | None = None
         self._thread = threading.Thread(target=self._loop, name="illuminant refiner", daemon=True)
@@ -147,6 +148,8 @@ class Refiner:
         """End the work and the thread."""
         with self._condition:
             self._closed = True
+            if self._cancel is not None:
+                self._cancel.cancel()
             self._condition.notify()
         if threading.current_thread() is not self._thread:
             self._thread.join(timeout=10.0)
@@ -305,16 +308,22 @@ class Refiner:
 
     def _solve(self, state: State) -> bool:
         """Solve for a state on a thread of its own, so that the camera can move on; False, for it is not there yet."""
-        if self._solving is None:
-            self._solving = state
+        solving = self._solving
+        if solving is not None and not _same(replace(solving, scene=state.scene), state, "elements"):
+            self._cancel.cancel()  # what it finds could not be relit for this state, which begins when it has ended
+        if solving is None:
+            from illuminant.core import core
+
+            self._solving, self._cancel = state, core().Cancel()
             self._say(f"Solving for the light between about {state.elements} elements …", False)
             threading.Thread(
-                target=self._solver, args=(state,), name="illuminant solver", daemon=True
+                target=self._solver, args=(state, self._cancel), name="illuminant solver", daemon=True
             ).start()
         return False
 
-    def _solver(self, state: State) -> None:
+    def _solver(self, state: State, cancel: Any) -> None:
         from illuminant import radiosity
+        from illuminant.core import core
 
         options: dict[str, Any] = (
             {} if state.technique == "specular-radiosity" else {"elements": state.elements}
@@ -325,8 +334,12 @@ class Refiner:
                 technique=state.technique,
                 illumination=state.illumination,
                 sampling=state.sampling,
+                cancel=cancel,
                 **options,
             )
+        except core().Cancelled:
+            self._solved_or_not(None, state)
+            return
         except Exception as error:
             self._say(str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}", True)
             self._solved_or_not(None, state)
