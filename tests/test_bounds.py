@@ -309,11 +309,11 @@ print(held + sum(found[0].values()), machine.peak_memory())
 @pytest.mark.parametrize(
     ("name", "options"),
     [
-        ("cornell", {"samples": 1, "size": [2000, 2000]}),
+        ("cornell", {"samples": 1, "size": [1200, 1200]}),
         ("cornell", {"samples": 1, "size": [1000, 1000], "keep_spectra": True}),
         ("cornell", {"samples": 1, "size": [16, 16], "technique": "radiosity", "light_samples": 1}),
-        ("bunny", {"samples": 1, "size": [1500, 1500], "layers": "depth,normal,albedo"}),
-        ("tiles", {"samples": 1, "size": [1000, 1000]}),
+        ("bunny", {"samples": 1, "size": [600, 600], "layers": "depth,normal,albedo"}),
+        ("tiles", {"samples": 1, "size": [600, 600]}),
     ],
 )
 def test_the_estimate_is_not_below_what_is_measured(name, options):
