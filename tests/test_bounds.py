@@ -12,6 +12,7 @@ import socket
 import struct
 import subprocess
 import sys
+import time
 import zipfile
 from pathlib import Path
 
@@ -326,6 +327,30 @@ def test_the_estimate_is_not_below_what_is_measured(name, options):
     )
     estimate, measured = map(int, done.stdout.split())
     assert measured <= estimate <= 1.6 * measured
+
+
+def test_a_header_cannot_smuggle_a_command():
+    from illuminant.info import remake
+
+    for text in ("rm -rf ~", "illuminant compare a.toml; rm -rf ~", "illuminant compare 'a"):
+        said = remake({"scene": "a.toml", "command": text}, Path("a b.png"), None)
+        assert said is None or ";" not in said.replace("'a.toml;'", "")
+    told = {"scene": "a.toml", "command": "illuminant compare a.toml --samples 4"}
+    assert remake(told, Path("a b.png"), None) == "illuminant compare a.toml --samples 4 -o 'a b.png'"
+
+
+def test_a_large_table_is_read_in_the_time_that_its_size_takes():
+    from illuminant.core import core
+
+    def seconds(count: int) -> float:
+        text = "a = [\n" + "1,\n" * count + "]\n"
+        start = time.process_time()
+        data, lines = core().parse_toml(text)
+        assert lines[("a", count - 1)] == count + 1
+        assert len(data["a"]) == count
+        return time.process_time() - start
+
+    assert seconds(160_000) < 20.0 * seconds(20_000), "eight times as much; it was sixty-four times as long"
 
 
 # --- the page -----------------------------------------------------------------------------------------------------

@@ -341,7 +341,12 @@ def remake(
     if not settings.get("scene") or "developed" in settings:
         return None
     if isinstance(settings.get("command"), str):  # of a contact sheet
-        return f"{settings['command']} -o {shlex.quote(str(path))}"
+        try:
+            told = shlex.split(settings["command"])
+        except ValueError:
+            return None
+        # A header may come from anybody: nothing but our own command is passed on, with its words quoted.
+        return shlex.join([*told, "-o", str(path)]) if told[:2] == ["illuminant", "compare"] else None
     words = ["illuminant", "render", str(settings["scene"]), "-o", str(path)]
     if _number(settings.get("frame")):
         words += ["--frames", str(settings["frame"])]

@@ -50,6 +50,9 @@ TOPICS = (
     "calibration.md",
     "develop.md",
     "animation.md",
+    "farm.md",
+    "reliability.md",
+    "security.md",
 )
 REFERENCE = ("scene-file.md", "command-line.md", "commands.md")
 PROOF = ("validation.md", "benchmarks.md", "benches.md")
