@@ -10,7 +10,7 @@
 | shadow maps | `film_memory.shadow_map_memory`, at most | fewer where a lamp sees part of the scene |
 
 How many form factors there will be is a guess: 1.3 sides for each element (2 where sheets are lit from both sides),
-and for each side as many as it sees patches, at most 0.85 of its rays. What the process holds already (packages, the
+and for each side as many as it sees patches, at most 0.75 of its rays. What the process holds already (packages, the
 arrays of the scene) is no part of this; `machine.resident` measures it.
 
 Example:
@@ -23,7 +23,7 @@ Example:
     ...     lights={"sky": {"kind": "environment", "spectrum": "D65", "luminance_cd_m2": 1000.0}},
     ... )
     >>> {name: bytes // 1_000_000 for name, bytes in parts(Settings(), scene, 960 * 540, 1).items()}
-    {'libraries': 30, 'film and image': 76}
+    {'libraries': 50, 'film and image': 76}
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ if TYPE_CHECKING:
 
 __all__ = ["check", "parts"]
 
-LIBRARIES = 30_000_000
+LIBRARIES = 50_000_000
 """Embree, threads, and what a small scene takes."""
 
 BYTES_A_TRIANGLE, BYTES_A_PIXEL, BYTES_A_FACTOR = 100, 50, 18.5
-SIDES_AN_ELEMENT, FACTORS_A_RAY = 1.3, 0.85
+SIDES_AN_ELEMENT, FACTORS_A_RAY = 1.3, 0.75
 ELEMENTS_MORE = 1.2
 """How many more elements there may be than asked for, beside one for each triangle."""
 
