@@ -56,7 +56,7 @@ def main() -> None:
     """Print the table."""
     told = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     told.add_argument("scene", nargs="?", type=Path, default=SCENES / "cornell.toml")
-    told.add_argument("--samples", type=int, default=256)
+    told.add_argument("--samples", type=int, default=128)
     told.add_argument("--size", default="512x512")
     given = told.parse_args()
     options = {"samples": given.samples, "size": given.size}
@@ -78,7 +78,7 @@ def main() -> None:
     known = reports[2]
     for workers in (1, 2, 10, 100):
         seconds = model(known, workers)
-        print(f"| model, {workers} workers | {seconds:.1f} | {alone / seconds:.2f} | | | | |")
+        print(f"| model, {workers} worker{'s' * (workers > 1)} | {seconds:.1f} | {alone / seconds:.2f} | | | | |")
     megabytes = known.bytes / 1e6
     print(f"network and joining alone: {megabytes / NETWORK_MB + known.merging:.2f} s")
 

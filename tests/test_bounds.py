@@ -329,6 +329,16 @@ def test_the_estimate_is_not_below_what_is_measured(name, options):
     assert measured <= estimate <= 1.6 * measured
 
 
+def test_a_limit_of_gigabytes_takes_no_memory():
+    """A scene of small files is read in a process that may have a gigabyte and a half, whatever the limits are."""
+    code = (
+        "import resource; resource.setrlimit(resource.RLIMIT_AS, (1_500_000_000,) * 2)\n"
+        f"from illuminant.scene import Scene; Scene.load({str(ROOT / 'scenes/demo.toml')!r})"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+
+
 def test_a_header_cannot_smuggle_a_command():
     from illuminant.info import remake
 

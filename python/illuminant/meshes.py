@@ -113,7 +113,7 @@ def _bytes(path: Path) -> bytes:
         data = sources.read(path, MAX_BYTES)
         if path.name.lower().endswith(".gz"):
             with gzip.GzipFile(fileobj=io.BytesIO(data)) as stream:
-                data = stream.read(MAX_BYTES + 1)
+                data = sources.drained(stream, MAX_BYTES + 1)
     except SourceError as error:
         raise DataError(error.message) from None
     except (EOFError, gzip.BadGzipFile, zlib.error) as error:

@@ -26,6 +26,7 @@ Example:
 from __future__ import annotations
 
 import errno
+import io
 import os
 import stat
 from pathlib import Path
@@ -34,7 +35,7 @@ from typing import IO, Literal
 from illuminant import machine
 from illuminant.errors import DataError, MachineError
 
-__all__ = ["Kind", "SourceError", "amount", "check", "is_outside", "located", "opened", "read"]
+__all__ = ["Kind", "SourceError", "amount", "check", "drained", "is_outside", "located", "opened", "read"]
 
 Kind = Literal["missing", "folder", "special", "loop", "outside", "large", "unreadable"]
 """Why a file is refused."""
@@ -162,13 +163,8 @@ def read(path: str | os.PathLike[str], most: int) -> bytes:
         with opened(path, most) as stream:
             if (size := os.fstat(stream.fileno()).st_size) >= WORTH_A_LOOK:
                 machine.check_file(file, size)
-            # A file may grow while it is read, and those of /proc state no size; so piece by piece, and each no larger
-            # than what is there: a reader makes room for all that it is asked for.
-            pieces, left = [], most + 1
-            while left and (piece := stream.read(min(left, max(size + 1, 1_000_000)))):
-                pieces.append(piece)
-                left -= len(piece)
-            content = pieces[0] if len(pieces) == 1 else b"".join(pieces)
+            # A file may grow while it is read, and those of /proc state no size.
+            content = drained(stream, most + 1, size + 1)
     except OSError as error:
         if isinstance(error, MachineError):
             raise
@@ -176,6 +172,28 @@ def read(path: str | os.PathLike[str], most: int) -> bytes:
     if len(content) > most:
         raise SourceError(f"is larger than {amount(most)}", file, "large")
     return content
+
+
+def drained(stream: IO[bytes] | io.BufferedIOBase, most: int, piece: int = 0) -> bytes:
+    """What a stream still holds, at most so many bytes.
+
+    It is read in pieces, since a reader makes room at once for all that it is asked for.
+
+    Args:
+        stream: is read.
+        most: bytes.
+        piece: how much is asked for at a time, at least a megabyte.
+
+    Example:
+        >>> import io
+        >>> drained(io.BytesIO(b"four"), 3)
+        b'fou'
+    """
+    pieces, left = [], most
+    while left and (found := stream.read(min(left, max(piece, 1_000_000)))):
+        pieces.append(found)
+        left -= len(found)
+    return pieces[0] if len(pieces) == 1 else b"".join(pieces)
 
 
 def is_outside(error: Exception) -> bool:
