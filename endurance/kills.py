@@ -61,10 +61,9 @@ def killed(words: list[str], seconds: float, *, full: bool) -> int | None:
             return None
 
 
-def amount(file: Path) -> tuple[int, float]:
-    """What a checkpoint holds: complete samples, and the seconds that were spent on it; raises if it is not whole."""
-    kept = Checkpoint.read(file)
-    return kept.done, kept.seconds
+def amount(file: Path) -> int:
+    """Samples over all pixels that a checkpoint holds; raises if it is not whole."""
+    return Checkpoint.read(file).samples
 
 
 def survive(kills: int, seed: int, options: list[str], folder: Path) -> Counter[str]:
@@ -76,19 +75,19 @@ def survive(kills: int, seed: int, options: list[str], folder: Path) -> Counter[
     subprocess.run(plain, check=True, capture_output=True)
     whole = time.monotonic() - start
     wanted = Image.open(reference)
-    checkpoint, before = folder / "image.ckpt", (0, 0.0)
+    checkpoint, before = folder / "image.ckpt", 0
     while found["kills"] < kills or checkpoint.exists():
         full = chance.random() < 0.1 and found["kills"] < kills
         # After the last kill it is left in peace.
         seconds = chance.uniform(0.05, 1.3 * whole) if found["kills"] < kills else 600.0
         ended = killed(command(folder, options), seconds, full=full)
-        writing = (folder / "image.ckpt~").exists()
+        writing = (folder / ".image.ckpt.part").exists()
         if checkpoint.exists():
             now = amount(checkpoint)
             assert now >= before, f"a kill after {seconds:.3f} s lost {before} and left {now}"
             before = now
         else:
-            assert before == (0, 0.0), "the checkpoint is gone"
+            assert before == 0, "the checkpoint is gone"
         if ended is None:
             found["kills"] += 1
             found["while a checkpoint was written"] += writing
@@ -97,6 +96,7 @@ def survive(kills: int, seed: int, options: list[str], folder: Path) -> Counter[
             continue
         if full:
             # An image does not fit on a full disk either; what was done must not be lost with it.
+            assert ended == 3, f"a full disk ended the render with code {ended}"
             found["full disks met to the end"] += 1
             continue
         assert ended == 0, f"the render ended with code {ended}"
@@ -105,7 +105,7 @@ def survive(kills: int, seed: int, options: list[str], folder: Path) -> Counter[
         assert image.settings == wanted.settings
         found["renders that came to their end, to the bit"] += 1
         checkpoint.unlink()
-        before = (0, 0.0)
+        before = 0
     return found
 
 

@@ -59,7 +59,7 @@ def held(folder: Path) -> Held:
     """Count now."""
     gc.collect()
     pages = int(Path("/proc/self/statm").read_text().split()[1])
-    temporary = len(list(folder.rglob("*")))
+    temporary = len(list(folder.rglob("*"))) - 1  # the folder of the work itself
     return Held(
         pages * resource.getpagesize(),
         threading.active_count() + native(),
@@ -147,19 +147,23 @@ WORK: tuple[Callable[[Path, random.Random], None], ...] = (
 def soak(seconds: float, seed: int, folder: Path) -> list[Held]:
     """Work until the time is up; what was held after each round."""
     chance, found = random.Random(seed), []
+    own = folder / "own"
+    own.mkdir()
+    before, tempfile.tempdir = tempfile.tempdir, str(folder)  # so that temporary files of libraries are seen
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         for work in chance.sample(WORK, len(WORK)):
-            work(folder, chance)
-        for file in folder.iterdir():
+            work(own, chance)
+        for file in own.iterdir():
             file.unlink()
         found.append(held(folder))
+    tempfile.tempdir = before
     return found
 
 
 def judged(found: list[Held]) -> tuple[list[str], bool]:
     """What there is to say, and whether nothing grew."""
-    third = len(found) // 3
+    third = max(1, len(found) // 3)
     parts = (found[:third], found[third : 2 * third], found[2 * third :])
     medians = [statistics.median(one.memory for one in part) / 1e6 for part in parts]
     growth = medians[2] / medians[1] - 1.0
@@ -190,9 +194,7 @@ def main() -> None:
     resource.setrlimit(resource.RLIMIT_AS, (bound, bound))
     np.seterr(all="raise", under="ignore")
     with tempfile.TemporaryDirectory() as folder:
-        tempfile.tempdir = folder  # so that temporary files of libraries are seen too
         found = soak(60 * given.minutes, given.seed, Path(folder))
-        tempfile.tempdir = None
     lines, sound = judged(found)
     head = f"illuminant {illuminant.__version__}, {date.today()}: mixed work for {given.minutes:g} minutes"
     text = "\n".join(

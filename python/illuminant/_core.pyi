@@ -554,6 +554,8 @@ class Render:
         so cancelled it. `from_lamps`: with the paths from lamps of these samples, where the settings ask for such."""
     def tiles(self) -> list[list[int]]:
         """x₀, y₀, x₁, y₁ of each tile."""
+    def seen(self) -> tuple[list[list[tuple[int, int]]], list[tuple[int, int]]]:
+        """The samples that each tile holds, as ranges in order; and those whose paths from lamps have been followed."""
     def part(self) -> bytes:
         """All that the film holds, for `join`."""
     def join(self, part: bytes) -> None:

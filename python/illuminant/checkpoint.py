@@ -5,13 +5,13 @@ samples are complete, the time that was spent, the solution of the light between
 identity of the render: scene, settings, versions. One of another identity is refused with each difference named.
 
 The file: a line with the form, the length of a header in 8 bytes (little-endian), the header (JSON), the blocks that it
-names, and the SHA-256 digest of all before it. It is written beside the old one (`FILE~`), flushed to the disk and then
-renamed, so that at every moment there is a whole checkpoint: the new one or the one before.
+names, and the SHA-256 digest of all before it. It is written beside the old one (`.FILE.part`), flushed to the disk and
+then renamed, so that at every moment there is a whole checkpoint: the new one or the one before.
 
 Example:
     >>> import tempfile, pathlib
     >>> file = pathlib.Path(tempfile.mkdtemp(), "room.ckpt")
-    >>> Checkpoint({"seed": 0}, done=64, seconds=2.5, part=b"sums").write(file)
+    >>> Checkpoint({"seed": 0}, done=64, end=64, samples=4096, seconds=2.5, part=b"sums").write(file)
     >>> Checkpoint.read(file).done
     64
 """
@@ -29,7 +29,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from illuminant import output, sources
-from illuminant.errors import DataError, Error, UsageError
+from illuminant.errors import DataError, Error, MachineError, UsageError
 from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
@@ -55,6 +55,8 @@ class Checkpoint:
     Attributes:
         identity: of the render; equal for renders whose samples may be joined.
         done: samples of every pixel that complete ranges have taken.
+        end: of the range under way, which was decided on and is to be completed; `done` if there is none.
+        samples: that the film holds, over all pixels.
         seconds: spent so far.
         part: what the film holds, as `Render.part` of the core gives it.
         solution: the light between surfaces, as `radiosity.Solution.to_bytes` gives it; empty where there is none.
@@ -62,6 +64,8 @@ class Checkpoint:
 
     identity: Mapping[str, Any]
     done: int
+    end: int
+    samples: int
     seconds: float
     part: bytes
     solution: bytes = b""
@@ -74,7 +78,8 @@ class Checkpoint:
             MachineError: the disk is full or fails. In both cases the older one is as it was.
         """
         path = Path(path)
-        header = {"identity": self.identity, "done": self.done, "seconds": self.seconds}
+        numbers = {"done": self.done, "end": self.end, "samples": self.samples, "seconds": self.seconds}
+        header: dict[str, Any] = {"identity": self.identity, **numbers}
         header["blocks"] = [len(self.part), len(self.solution)]
         text = json.dumps(header, sort_keys=True).encode()
         blocks = (FIRST_LINE, struct.pack("<Q", len(text)), text, self.part, self.solution)
@@ -87,8 +92,8 @@ class Checkpoint:
                     file.write(block)
                 file.write(digest.digest())
 
-        # One name, so that what a killed process leaves is overwritten by the next one.
-        output.write(path, encode, temporary=path.with_name(f"{path.name}~"))
+        # One name, so that what a killed process leaves is removed by the next one.
+        output.write(path, encode, temporary=f".{path.name}.part")
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Checkpoint:
@@ -126,16 +131,20 @@ class Checkpoint:
             if length > MAX_HEADER:
                 raise ValueError("header")
             header = json.loads(content[start : start + length])
-            identity, done, seconds = header["identity"], header["done"], float(header["seconds"])
+            identity, seconds = header["identity"], float(header["seconds"])
+            done, end, samples = (header[key] for key in ("done", "end", "samples"))
             part, solution = header["blocks"]
             whole = isinstance(identity, dict) and min(part, solution) >= 0
             whole &= start + length + part + solution + _DIGEST == len(content)
-            if not (whole and isinstance(done, int) and 0 <= done < 2**32 and 0 <= seconds < 1e12):
+            whole &= all(isinstance(count, int) for count in (done, end, samples))
+            if not (whole and 0 <= done <= end < 2**32 and 0 <= samples < 2**63 and 0 <= seconds < 1e12):
                 raise ValueError("numbers")
             first = start + length
             return cls(
                 identity,
                 done,
+                end,
+                samples,
                 seconds,
                 content[first : first + part],
                 content[first + part : first + part + solution],
@@ -153,7 +162,7 @@ class Checkpoint:
             UsageError: they differ; the sentence names how.
 
         Example:
-            >>> Checkpoint({"seed": 0}, 1, 0.0, b"").check({"seed": 1})
+            >>> Checkpoint({"seed": 0}, 1, 1, 9, 0.0, b"").check({"seed": 1})
             Traceback (most recent call last):
             illuminant.errors.UsageError: The checkpoint is of another render: seed was 0 and is 1.
         """
@@ -221,9 +230,12 @@ class Keeper:
         """Write one; False if that was not possible."""
         try:
             job.checkpoint().write(self.path)
-        except Error as error:
+        except (Error, MemoryError, ValueError) as error:
             if self._trouble is not None:
-                self._trouble(error)
+                told = (
+                    error if isinstance(error, Error) else MachineError("There is not enough memory for it.")
+                )
+                self._trouble(told)
             return False
         finally:
             # From its end, so that writing never takes all of the time.

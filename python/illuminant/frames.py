@@ -124,6 +124,7 @@ def render_frames(
     save: Callable[..., Saved] = Image.save,
     on_job: Callable[[Job], object] | None = None,
     follow: Callable[[Job, OnProgress | None], object] = followed,
+    solve_by: Callable[[Scene, Settings], Any] | None = None,
     allow_outside: bool = False,
     memory_limit: int | str | None = None,
     progress: OnProgress | None = None,
@@ -140,6 +141,7 @@ def render_frames(
         save: saves an image, with the arguments of `Image.save`.
         on_job: called with each render before it begins, so that it can be interrupted from outside.
         follow: does the work of a render: this process, or a farm.
+        solve_by: as for `Job`.
         allow_outside: whether files that the scene names may lie outside its folder.
         memory_limit: as for `illuminant.render`.
         progress: as for `illuminant.render`.
@@ -174,7 +176,7 @@ def render_frames(
             if before is not None:
                 one.share_geometry(before)
             before = one
-            job = Job(one, memory_limit=memory_limit, **options)
+            job = Job(one, memory_limit=memory_limit, solve_by=solve_by, **options)
             if on_job is not None:
                 on_job(job)
             follow(job, progress)

@@ -296,27 +296,42 @@ def _asked_layers(names: Iterable[str]) -> dict[str, Any]:
     }
 
 
-def same_scene(settings: Mapping[str, Any], scene: str | os.PathLike[str]) -> bool:
-    """Whether an image was made from a scene as it is now: the hash in its header is that of the scene.
+def same_scene(
+    settings: Mapping[str, Any], scene: str | os.PathLike[str], *, allow_outside: bool = False
+) -> bool:
+    """Whether an image was made from a scene as it is now: its header has the hash of the scene, or of that frame.
 
     Args:
         settings: of the image, as its header states them.
         scene: a scene file.
+        allow_outside: whether files that it names may lie outside its folder.
 
     Raises:
-        UsageError: the header names no scene.
+        UsageError: the header names no scene, or a frame that the scene has not.
         SceneError: the scene has mistakes.
     """
+    from illuminant.animation import Animation
     from illuminant.job import resized
     from illuminant.scene import Scene
+    from illuminant.schema import MAX_PIXELS
 
     known = settings.get("scene_hash")
     if not isinstance(known, str):
         raise UsageError("--scene: the image does not say which scene it was made from.")
-    now = Scene.load(scene)
+    frame = settings.get("frame")
+    if isinstance(frame, int):
+        animation = Animation.load(scene, allow_outside=allow_outside)
+        if not animation.first <= frame <= animation.last:
+            return False
+        now = animation.still(frame)
+    else:
+        now = Scene.load(scene, allow_outside=allow_outside)
     size = settings.get("size")
-    if isinstance(size, list) and len(size) == 2 and _numbers(size) and min(size) >= 1:
-        now = resized(now, (int(size[0]), int(size[1])))
+    if isinstance(size, list) and len(size) == 2 and all(isinstance(one, int) and one > 0 for one in size):
+        width, height = size
+        if width * height > MAX_PIXELS:
+            return False
+        now = resized(now, (width, height))
     return now.hash() == known
 
 

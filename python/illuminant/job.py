@@ -152,6 +152,7 @@ class Job:
     Attributes:
         scene, settings: what is rendered, and how.
         done: samples of every pixel that complete ranges have taken.
+        under_way: end of the range that is being taken.
         interrupted: whether Ctrl-C ended the work.
         stopped: whether `progress` ended it by returning False.
     """
@@ -187,7 +188,7 @@ class Job:
         if self.settings.size is not None:
             self.scene = resized(self.scene, self.settings.size)
         self.exposure: float | None = defaults.get("exposure")
-        self.done = 0
+        self.done = self.under_way = 0
         self.interrupted = False
         self.stopped = False
         width, height = _pixels(self.scene)
@@ -224,8 +225,20 @@ class Job:
         except MemoryError as error:
             raise MachineError("There is not enough memory for this scene and image.") from error
         if checkpoint is not None:
-            self.join(checkpoint.part)
-            self.done, self._spent = checkpoint.done, checkpoint.seconds
+            self._go_on(checkpoint)
+
+    def _go_on(self, checkpoint: Checkpoint) -> None:
+        """Take over what a checkpoint holds."""
+        self.join(checkpoint.part)
+        self.done, self.under_way, self._spent = checkpoint.done, checkpoint.end, checkpoint.seconds
+        tiles, from_lamps = self.core_render.seen()
+        most = max((ranges[-1][1] for ranges in [*tiles, from_lamps] if ranges), default=0)
+        most = max(most, self.under_way)
+        wanted = self.settings.samples
+        if wanted is not None and most > wanted:
+            raise UsageError(
+                f"--samples {wanted}: the checkpoint holds up to {most} of a pixel; ask for as many or more."
+            )
 
     def identity(self) -> dict[str, Any]:
         """What must be equal for samples to be those of one image: scene, settings, versions."""
@@ -258,7 +271,13 @@ class Job:
     def checkpoint(self) -> Checkpoint:
         """All that is needed to go on from here in another process."""
         return Checkpoint(
-            self.identity(), self.done, self._seconds(), self.core_render.part(), self.solution_bytes()
+            self.identity(),
+            done=self.done,
+            end=max(self.done, self.under_way),
+            samples=int(self.core_render.statistics()["samples"]),
+            seconds=self._seconds(),
+            part=self.core_render.part(),
+            solution=self.solution_bytes(),
         )
 
     def solution_bytes(self) -> bytes:
@@ -309,16 +328,31 @@ class Job:
         Ends when the settings say so, or after Ctrl-C (`interrupted`), or after `progress` returned False
         (`stopped`). With a keeper there are checkpoints on the way, and one of the end.
         """
-        self._began = clock.monotonic()
+        self.begin()
         while not (self.interrupted or self.stopped) and (end := self.next_end()) > self.done:
+            self.under_way = end
             if self._run(end, progress, keeper):
                 self.done = end
                 yield end
-        if keeper is not None:
+        self.keep(keeper)
+
+    def begin(self) -> None:
+        """From now on time counts."""
+        self._began = clock.monotonic()
+
+    def keep(self, keeper: Keeper | None) -> None:
+        """Write a checkpoint, if somebody keeps them; Ctrl-C meanwhile ends the work and not the program."""
+        if keeper is None:
+            return
+        try:
             keeper.keep(self)
+        except KeyboardInterrupt:
+            self.interrupted = True
 
     def next_end(self) -> int:
         """End of the next range of samples; `done` when there shall be none."""
+        if self.under_way > self.done:
+            return self.under_way  # was decided on before the work was cut off
         settings = self.settings
         end = next_range(self.done, settings.samples)
         if (
@@ -372,8 +406,7 @@ class Job:
                 return True
             if not pausing or self.stopped or self.interrupted:
                 break
-            assert keeper is not None
-            keeper.keep(self)
+            self.keep(keeper)
             before += last
         if not self.stopped:
             self.interrupted = True

@@ -21,6 +21,7 @@ import errno
 import os
 import tempfile
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from illuminant.errors import Error, ImageError, MachineError
@@ -83,6 +84,13 @@ def _temporary(path: Path) -> Path:
     return Path(name)
 
 
+def _fresh(path: Path) -> Path:
+    """An empty file of this name, in the place of whatever a killed process, or somebody else, has left there."""
+    _remove(path)
+    os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
+    return path
+
+
 def _remove(path: Path) -> None:
     path.unlink(missing_ok=True)
 
@@ -97,15 +105,14 @@ def _permissions(path: Path) -> int:
         return 0o666 & ~mask
 
 
-def write(
-    path: str | os.PathLike[str], encode: Callable[[Path], None], temporary: Path | None = None
-) -> None:
+def write(path: str | os.PathLike[str], encode: Callable[[Path], None], temporary: str | None = None) -> None:
     """Write a file atomically.
 
     Args:
         path: the file to make or to replace.
         encode: writes everything to the path it is given and raises when it cannot; called once.
-        temporary: where it is written first; default a new name in the same folder.
+        temporary: the name under which it is written first, in the same folder; default a new one. What has that name
+            is removed.
 
     Raises:
         ImageError: the path cannot be an output.
@@ -115,16 +122,18 @@ def write(
     # A link is kept, and what it points to is replaced.
     target = path.resolve() if path.is_symlink() else path
     try:
-        temporary = temporary or _temporary(target)
+        place = _temporary(target) if temporary is None else _fresh(target.with_name(temporary))
         try:
-            encode(temporary)
-            os.chmod(temporary, _permissions(target))
-            _flush(temporary)
-            os.replace(temporary, target)
-            # The new name, too, is on the disk only now: a power cut would bring back the old file, or none.
-            _flush(target.parent)
+            encode(place)
+            os.chmod(place, _permissions(target))
+            _flush(place)
+            os.replace(place, target)
         finally:
-            _remove(temporary)
+            _remove(place)
+        # The new name, too, is on the disk only now: a power cut would bring back the old file. Not every folder can
+        # be flushed, and the file is there.
+        with suppress(OSError):
+            _flush(target.parent)
     except Error:
         raise
     except OSError as error:

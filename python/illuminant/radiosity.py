@@ -286,12 +286,22 @@ class Solution:
             ImageError: the path cannot be an output.
             MachineError: the disk is full or fails.
         """
-        output.write_bytes(path, self.to_bytes())
+
+        def encode(temporary: os.PathLike[str]) -> None:
+            with open(temporary, "wb") as stream:
+                self._write(stream)
+
+        output.write(path, encode)
 
     def to_bytes(self) -> bytes:
         """The solution as the bytes of such a file, for `from_bytes`."""
         import io
 
+        stream = io.BytesIO()
+        self._write(stream)
+        return stream.getvalue()
+
+    def _write(self, stream: IO[bytes]) -> None:
         import numpy as np
 
         self._check_irradiance()
@@ -309,9 +319,7 @@ class Solution:
             **parts,
         }
 
-        stream = io.BytesIO()
         np.savez(stream, allow_pickle=False, **arrays)
-        return stream.getvalue()
 
     @property
     def core_solution(self) -> Any:

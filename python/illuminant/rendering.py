@@ -41,7 +41,15 @@ class RenderInterrupted(Interrupted):
         self.image = image
 
 
-def _log_warnings(job: Job) -> None:
+def keeper_of(checkpoint: str | os.PathLike[str] | None, every: str | float) -> Keeper | None:
+    """What keeps the checkpoints of a render; one that cannot be written goes to the log."""
+    if checkpoint is None:
+        return None
+    log = logging.getLogger("illuminant")
+    return Keeper(checkpoint, duration(every, "every"), lambda error: log.warning(str(error)))
+
+
+def log_warnings(job: Job) -> None:
     """Say in the log `illuminant` what does not suit the scene; Python shows it on stderr if nobody listens."""
     for text in job.warnings():
         logging.getLogger("illuminant").warning(text)
@@ -66,7 +74,7 @@ def progressive(
         ...     image.save("preview.png")
     """
     job = Job(scene, **options)
-    _log_warnings(job)
+    log_warnings(job)
     for _ in job.passes(progress):
         yield job.image()
     if job.interrupted or job.stopped:
@@ -201,13 +209,6 @@ def render(
         >>> image.layers["depth"].shape                                                   # doctest: +SKIP
         (512, 512, 1)
     """
-    keeper = None
-    if checkpoint is not None:
-        keeper = Keeper(
-            checkpoint,
-            duration(every, "every"),
-            lambda error: logging.getLogger("illuminant").warning(str(error)),
-        )
     job = Job(
         scene,
         checkpoint=None if checkpoint is None else resumed(checkpoint, resume=resume),
@@ -251,8 +252,8 @@ def render(
         allow_outside=allow_outside,
         memory_limit=memory_limit,
     )
-    _log_warnings(job)
-    for _ in job.passes(progress, keeper):
+    log_warnings(job)
+    for _ in job.passes(progress, keeper_of(checkpoint, every)):
         if on_partial is not None:
             on_partial(job.image())
     image = job.image()

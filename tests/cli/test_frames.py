@@ -290,3 +290,22 @@ def test_numbers_and_names() -> None:
         "0007.exr",
         "a.png",
     ]
+
+
+def test_info_knows_the_frame(moving: Path, inside: Command) -> None:
+    lines(
+        inside(
+            "render", moving.name, "--frames", "3", "-o", "f.####.png", "--samples", "1", cwd=moving.parent
+        )
+    )
+    told = inside("info", "f.0003.png", "--scene", moving.name, cwd=moving.parent)
+    assert (told.returncode, "made from it as it is now" in told.stdout) == (0, True)
+    moving.write_text(moving.read_text().replace("4000.0", "5000.0"))
+    assert inside("info", "f.0003.png", "--scene", moving.name, cwd=moving.parent).returncode == 1
+
+
+@pytest.mark.parametrize("size", [[float("inf"), 4], [2**40, 2**40], [0, 4], ["8", 4], [8]])
+def test_a_size_in_a_header_that_cannot_be(scene: Path, size: list[float]) -> None:
+    from illuminant.info import same_scene
+
+    assert not same_scene({"scene_hash": "0" * 64, "size": size}, scene)

@@ -2,6 +2,7 @@
 
 import json
 import random
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -65,6 +66,52 @@ def test_a_render_that_was_cut_off_goes_on_to_the_same_bits(scenes, tmp_path, ki
     same(job.image(), whole)
 
 
+def test_a_range_that_was_cut_off_is_completed_before_its_noise_decides(scenes, tmp_path):
+    """Half a range of more samples in some tiles would look as if the image were good enough, or not."""
+    options = {"size": (64, 48), "error": 0.08, "samples": 1024}
+    whole = illuminant.render(scenes / "cornell.toml", **options)
+    assert whole.settings["samples"] > 64
+    for cut in (64, whole.settings["samples"] // 2 // 64 * 64):
+        job = Job(scenes / "cornell.toml", **options)
+        for done in job.passes():
+            if done >= cut:
+                break
+        job.under_way = job.next_end()
+        job.core_render.run(job.done, job.under_way, tiles=(0, 5))
+        job.checkpoint().write(tmp_path / "image.ckpt")
+        later = Job(scenes / "cornell.toml", checkpoint=Checkpoint.read(tmp_path / "image.ckpt"), **options)
+        list(later.passes())
+        same(later.image(), whole)
+
+
+def test_fewer_samples_than_there_are_cannot_be_asked_for(scenes):
+    job = Job(scenes / "cornell.toml", size=(40, 24), samples=128)
+    next(job.passes())
+    job.core_render.run(0, 64, tiles=(0, 1))
+    with pytest.raises(UsageError, match="--samples 16: the checkpoint holds up to 64 of a pixel"):
+        Job(scenes / "cornell.toml", size=(40, 24), samples=16, checkpoint=job.checkpoint())
+
+
+def test_ctrl_c_while_a_checkpoint_is_written_keeps_the_image(scenes, tmp_path, monkeypatch):
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Checkpoint, "write", interrupt)
+    with pytest.raises(illuminant.RenderInterrupted) as caught:
+        illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=tmp_path / "image.ckpt")
+    assert caught.value.image.statistics["least_samples"] == 24
+
+
+def test_a_checkpoint_goes_where_a_link_leads(scenes, tmp_path):
+    (tmp_path / "far").mkdir()
+    (tmp_path / "image.ckpt").symlink_to(tmp_path / "far" / "real.ckpt")
+    (tmp_path / "far" / ".image.ckpt.part").symlink_to(tmp_path / "somebody")
+    illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=tmp_path / "image.ckpt")
+    assert (tmp_path / "image.ckpt").is_symlink()
+    assert Checkpoint.read(tmp_path / "far" / "real.ckpt").done == 24
+    assert not (tmp_path / "somebody").exists()
+
+
 def test_more_samples_can_be_asked_for_later(scenes, tmp_path):
     file = tmp_path / "image.ckpt"
     illuminant.render(scenes / "cornell.toml", size=(40, 24), samples=8, checkpoint=file)
@@ -105,7 +152,7 @@ def test_a_checkpoint_of_another_render_is_refused_with_what_differs(scenes, tmp
     with pytest.raises(UsageError, match="--resume, or remove it"):
         illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=file)
     kept = Checkpoint.read(file)
-    older = Checkpoint({**kept.identity, "version": "0.0.1"}, kept.done, kept.seconds, kept.part)
+    older = replace(kept, identity={**kept.identity, "version": "0.0.1"})
     with pytest.raises(UsageError, match=r"version was 0\.0\.1 and is"):
         Job(scenes / "cornell.toml", checkpoint=older, **SMALL)
 
@@ -126,7 +173,7 @@ def test_samples_of_counted_samplers_are_part_of_the_identity(scenes, tmp_path):
 @settings(max_examples=300)
 @given(at=st.integers(0, 10_000), bit=st.integers(0, 7), cut=st.booleans())
 def test_any_damage_is_found(at, bit, cut):
-    whole = _bytes(Checkpoint({"seed": 0}, 64, 1.5, bytes(range(100)), b"solution"))
+    whole = _bytes(Checkpoint({"seed": 0}, 64, 64, 9, 1.5, bytes(range(100)), b"solution"))
     at %= len(whole)
     damaged = whole[:at] if cut else whole[:at] + bytes([whole[at] ^ 1 << bit]) + whole[at + 1 :]
     with pytest.raises(DataError):
@@ -147,20 +194,24 @@ def _bytes(checkpoint: Checkpoint) -> bytes:
 @pytest.mark.parametrize(
     "header",
     [
-        {"identity": [], "done": 1, "seconds": 1, "blocks": [0, 0]},
-        {"identity": {}, "done": -1, "seconds": 1, "blocks": [0, 0]},
-        {"identity": {}, "done": 1, "seconds": 1e400, "blocks": [0, 0]},
-        {"identity": {}, "done": 1, "seconds": 1, "blocks": [0, 2**70]},
-        {"identity": {}, "done": 1, "seconds": 1, "blocks": [-5, 5]},
-        {"identity": {}, "done": 1, "seconds": 1},
-        [],
+        {"identity": []},
+        {"done": -1},
+        {"done": 1.5},
+        {"end": 0},
+        {"samples": 2**70},
+        {"seconds": 1e400},
+        {"blocks": [0, 2**70]},
+        {"blocks": [-5, 5]},
+        {"blocks": None},
+        None,
     ],
 )
 def test_a_header_that_cannot_be_is_refused_even_with_the_right_digest(header):
     import hashlib
     import struct
 
-    text = json.dumps(header).encode()
+    whole = {"identity": {}, "done": 1, "end": 1, "samples": 1, "seconds": 1, "blocks": [0, 0]}
+    text = json.dumps(header and whole | header).encode()
     content = b"illuminant checkpoint 1\n" + struct.pack("<Q", len(text)) + text
     with pytest.raises(DataError, match="damaged"):
         Checkpoint.from_bytes(content + hashlib.sha256(content).digest())

@@ -144,9 +144,18 @@ impl PyRender {
         self.0.film().tiles.iter().map(|tile| tile.area).collect()
     }
 
+    /// The samples that each tile holds, as ranges in order; and those of which the paths from lamps have been followed.
+    fn seen(&self) -> (Vec<Vec<(u64, u64)>>, Vec<(u64, u64)>) {
+        let of = |tile: &illuminant_technique::TileFilm| {
+            tile.seen().iter().map(|range| (range.start, range.end)).collect::<Vec<_>>()
+        };
+        let film = self.0.film();
+        (film.tiles.iter().map(of).collect(), film.from_lamps.as_ref().map(of).unwrap_or_default())
+    }
+
     /// What the film holds, as bytes for `join`.
     fn part<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = py.detach(|| self.0.part().to_bytes());
+        let bytes = py.detach(|| self.0.part());
         Ok(PyBytes::new(py, &bytes.map_err(|e| PyValueError::new_err(e.to_string()))?))
     }
 

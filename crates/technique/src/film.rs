@@ -133,6 +133,12 @@ impl TileFilm {
         missing
     }
 
+    /// The samples that the tile has seen, as disjoint ranges in order.
+    #[must_use]
+    pub fn seen(&self) -> &[Range<u64>] {
+        &self.seen
+    }
+
     /// Columns of the tile.
     #[must_use]
     pub fn width(&self) -> u32 {

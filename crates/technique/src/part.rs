@@ -33,15 +33,23 @@ pub enum PartError {
 }
 
 /// The sums of one tile, or of what paths from lamps brought.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 struct TilePart {
     seen: Vec<Range<u64>>,
     samples: Vec<u32>,
     sums: Vec<i128>,
 }
 
+/// The same where it stands, to be written: a film may fill most of the memory.
+#[derive(Serialize)]
+struct TileView<'a> {
+    seen: &'a [Range<u64>],
+    samples: &'a [u32],
+    sums: &'a [i128],
+}
+
 /// What some samples of a render have brought.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 pub struct Part {
     form: u32,
     crop: [u32; 4],
@@ -52,15 +60,38 @@ pub struct Part {
     statistics: Statistics,
 }
 
-impl TilePart {
-    fn of(film: &TileFilm) -> Option<Self> {
-        (!film.seen.is_empty()).then(|| Self {
-            seen: film.seen.clone(),
-            samples: film.samples.clone(),
-            sums: film.sums.clone(),
-        })
-    }
+/// The same where it stands; field by field as [`Part`].
+#[derive(Serialize)]
+struct PartView<'a> {
+    form: u32,
+    crop: [u32; 4],
+    layers: Vec<&'a str>,
+    tiles: Vec<(u32, TileView<'a>)>,
+    from_lamps: Option<TileView<'a>>,
+    statistics: &'a Statistics,
+}
 
+impl<'a> TileView<'a> {
+    fn of(film: &'a TileFilm) -> Option<Self> {
+        (!film.seen.is_empty()).then_some(Self { seen: &film.seen, samples: &film.samples, sums: &film.sums })
+    }
+}
+
+/// All that a film holds, as bytes.
+pub(crate) fn bytes_of(film: &Film, statistics: &Statistics) -> Result<Vec<u8>, PartError> {
+    let tiles = film.tiles.iter().enumerate();
+    let view = PartView {
+        form: FORM,
+        crop: film.crop,
+        layers: film.plan.iter().map(|plan| plan.name.as_str()).collect(),
+        tiles: tiles.filter_map(|(i, tile)| Some((i as u32, TileView::of(tile)?))).collect(),
+        from_lamps: film.from_lamps.as_ref().and_then(TileView::of),
+        statistics,
+    };
+    postcard::to_stdvec(&view).map_err(|error| PartError::Damaged(error.to_string()))
+}
+
+impl TilePart {
     /// Whether it fits the sums of a tile and holds nothing that those hold.
     fn check(&self, film: &TileFilm, tile: usize) -> Result<(), PartError> {
         let damaged = |what: &str| Err(PartError::Damaged(format!("tile {tile} {what}")));
@@ -68,7 +99,7 @@ impl TilePart {
             return damaged("has another size");
         }
         let rising = self.seen.windows(2).all(|pair| pair[0].end < pair[1].start);
-        if !rising || self.seen.iter().any(|range| range.start >= range.end || range.end > 1 << 32) {
+        if !rising || self.seen.iter().any(|range| range.start >= range.end || range.end >= 1 << 32) {
             return damaged("names its samples wrongly");
         }
         let most: u64 = self.seen.iter().map(|range| range.end - range.start).sum();
@@ -101,27 +132,6 @@ impl TilePart {
 }
 
 impl Part {
-    /// All that a film holds.
-    pub(crate) fn of(film: &Film, statistics: &Statistics) -> Self {
-        let tiles = film.tiles.iter().enumerate();
-        Self {
-            form: FORM,
-            crop: film.crop,
-            layers: film.plan.iter().map(|plan| plan.name.clone()).collect(),
-            tiles: tiles.filter_map(|(i, tile)| Some((i as u32, TilePart::of(tile)?))).collect(),
-            from_lamps: film.from_lamps.as_ref().and_then(TilePart::of),
-            statistics: statistics.clone(),
-        }
-    }
-
-    /// The part as bytes.
-    ///
-    /// # Errors
-    /// [`PartError::Damaged`] if it cannot be written, which no part that a render gave does.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, PartError> {
-        postcard::to_stdvec(self).map_err(|error| PartError::Damaged(error.to_string()))
-    }
-
     /// A part from its bytes, which may come from anywhere.
     ///
     /// # Errors
@@ -150,6 +160,9 @@ impl Part {
         }
         if self.from_lamps.is_some() && film.from_lamps.is_none() {
             return other("paths from lamps");
+        }
+        if !self.statistics.is_plausible() {
+            return Err(PartError::Damaged("its counts cannot be".into()));
         }
         let rising = self.tiles.windows(2).all(|pair| pair[0].0 < pair[1].0);
         if !rising || self.tiles.last().is_some_and(|(tile, _)| *tile as usize >= film.tiles.len()) {
@@ -196,7 +209,7 @@ mod tests {
     }
 
     fn bytes(film: &Film) -> Vec<u8> {
-        Part::of(film, &Statistics::default()).to_bytes().expect("a part of a film can be written")
+        bytes_of(film, &Statistics::default()).expect("a part of a film can be written")
     }
 
     #[test]

@@ -4,7 +4,7 @@ use crate::film::{Film, TOO_LARGE, TileFilm};
 use crate::filter::FilterSampler;
 use crate::haze::Haze;
 use crate::pairs;
-use crate::part::{Part, PartError};
+use crate::part::{self, Part, PartError};
 use crate::passes::{How, Job, Light, Replay, TileCounts, TileRenderer, group_lamps, renderer};
 use crate::path::Query;
 use crate::radiosity::{Given, RadiositySolution};
@@ -77,6 +77,14 @@ pub struct Statistics {
 }
 
 impl Statistics {
+    /// Whether a render could have done so much: counts of a part may come from anywhere.
+    pub(crate) fn is_plausible(&self) -> bool {
+        let counts = [self.samples, self.closest, self.occlusion, self.pruned, self.spans, self.dropped];
+        self.elapsed < Duration::from_secs(1 << 40)
+            && counts.iter().all(|&count| count < 1 << 62)
+            && self.details.len() <= DETAILS
+    }
+
     /// Adds what another part of the render has done.
     pub(crate) fn join(&mut self, other: Self) {
         self.elapsed = self.elapsed.saturating_add(other.elapsed);
@@ -359,7 +367,7 @@ impl Render {
                 }
             }
         }
-        self.statistics.elapsed += start.elapsed();
+        self.statistics.elapsed = self.statistics.elapsed.saturating_add(start.elapsed());
         complete
     }
 
@@ -473,10 +481,12 @@ impl Render {
         })
     }
 
-    /// What the film holds, to be kept or sent.
-    #[must_use]
-    pub fn part(&self) -> Part {
-        Part::of(&self.film, &self.statistics)
+    /// What the film holds, as the bytes of a [`Part`], to be kept or sent.
+    ///
+    /// # Errors
+    /// [`PartError::Damaged`] if it cannot be written, which does not happen.
+    pub fn part(&self) -> Result<Vec<u8>, PartError> {
+        part::bytes_of(&self.film, &self.statistics)
     }
 
     /// Adds what another render of the same scene with the same settings has found, all of it or nothing. That they are the same

@@ -23,7 +23,9 @@ app = typer.Typer(no_args_is_help=True)
 Workers = Annotated[
     int | None,
     typer.Option(
-        "--workers", metavar="N", help="Workers of a cluster that is started here (one a processor)."
+        "--workers",
+        metavar="N",
+        help="Workers of a cluster that is started here (as there are processors).",
     ),
 ]
 Address = Annotated[
@@ -34,7 +36,13 @@ Address = Annotated[
 ]
 Threads = Annotated[
     int,
-    typer.Option("--threads", metavar="N", help="Threads of each worker, which has the scene to itself (1)."),
+    typer.Option(
+        "--threads",
+        metavar="N",
+        min=1,
+        max=4096,
+        help="Threads of a worker, each with the scene to itself (1).",
+    ),
 ]
 
 
@@ -71,7 +79,7 @@ class _Farm(rendering.Here):
         if self._ray is None:
             from illuminant.farm import cluster
 
-            self._ray = self._stack.enter_context(cluster(*self._asked))
+            self._ray = self._stack.enter_context(cluster(*self._asked, self._threads))
         return self._ray
 
     def solve_by(self, scene: Scene, settings: Settings) -> Any:

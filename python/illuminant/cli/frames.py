@@ -69,6 +69,7 @@ def render_frames(
             save=save,
             on_job=watch,
             follow=lambda job, progress: worker.follow(job, progress, None),
+            solve_by=worker.solve_by,
             progress=bar,
             memory_limit=memory_limit,
             **look,

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from illuminant.cli.options import Json
+from illuminant.cli.options import AllowOutside, Json
 
 __all__ = ["info"]
 
@@ -28,6 +28,7 @@ def info(
             show_default=False,
         ),
     ] = None,
+    allow_outside: AllowOutside = False,
     json: Json = False,
 ) -> None:
     """Say what was found on this machine and what to do about the rest; or what an image says of itself, and the
@@ -46,7 +47,7 @@ def info(
         raise UsageError("--scene: goes with an image.")
     facts = facts_of.machine_facts() if image is None else facts_of.image_facts(image)
     if scene is not None:
-        facts["same_scene"] = facts_of.same_scene(facts["settings"], scene)
+        facts["same_scene"] = facts_of.same_scene(facts["settings"], scene, allow_outside=allow_outside)
     if json:
         emit_json(facts)
     elif image is None:

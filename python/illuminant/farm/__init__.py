@@ -21,7 +21,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from illuminant.farm.cluster import cluster
-from illuminant.farm.tasks import Brought, Rows, Work, rows, share
+from illuminant.farm.tasks import Brought, Work, rows, share
 
 if TYPE_CHECKING:
     from illuminant.checkpoint import Checkpoint, Keeper
@@ -40,9 +40,6 @@ SECONDS = 2.0
 
 FIRST = 50_000.0
 """Samples of a share while the rate of workers is not known."""
-
-MOST_RETRIES = 100
-"""How often a share is done again whose worker died."""
 
 
 @dataclass
@@ -102,9 +99,10 @@ def render(
 
     Args:
         scene: a `Scene`, or the path of a scene file.
-        workers: of a cluster that is started here and stopped at the end; default one for each processor.
+        workers: of a cluster that is started here and stopped at the end; default as many as there are processors for.
         address: of a cluster that runs already, instead: `auto`, `host:6379` or `ray://host:10001`.
-        threads: of each worker; each worker has the scene in its memory, so fewer with more threads take less.
+        threads: of each worker, which takes as many processors. Each has the scene in its memory, so few workers with
+            many threads take less than many with one.
         progress: called after each part with a `Progress`; returning False ends the render with what is done.
         checkpoint, every, resume: as for `illuminant.render`.
         options: as for `illuminant.render`.
@@ -121,20 +119,20 @@ def render(
         >>> image.statistics["farm"]["shares"]                               # doctest: +SKIP
         12
     """
-    from illuminant.checkpoint import Keeper, resumed
+    from illuminant.checkpoint import resumed
     from illuminant.job import Job, held
-    from illuminant.rendering import RenderInterrupted
-    from illuminant.settings import duration
+    from illuminant.rendering import RenderInterrupted, keeper_of, log_warnings
 
-    keeper = None if checkpoint is None else Keeper(checkpoint, duration(every, "every"))
+    keeper = keeper_of(checkpoint, every)
     before: Checkpoint | None = None if checkpoint is None else resumed(checkpoint, resume=resume)
-    with cluster(workers, address) as ray:
+    with cluster(workers, address, threads) as ray:
         job = Job(
             scene,
             checkpoint=before,
             solve_by=lambda scene, settings: solve(ray, scene, settings, threads=threads),
             **options,
         )
+        log_warnings(job)
         report = render_job(ray, job, threads=threads, progress=progress, keeper=keeper)
     image = job.image()
     image.statistics["farm"] = report.to_dict()
@@ -159,19 +157,18 @@ def render_job(
         threads: of each worker.
         progress: as for `render`.
         keeper: writes checkpoints of what has been joined.
+
+    Raises:
+        UsageError: no machine of the cluster has so many processors.
+        MachineError: the cluster is lost, or a share failed on its worker.
     """
-    from illuminant.errors import MachineError
+    from illuminant.farm.dispatch import dispatched, lanes
 
+    report, sizes = Report(), _Sizes(job, lanes(ray, threads))
     work = _work(ray, job, threads)
-    remote = ray.remote(num_cpus=threads, max_retries=MOST_RETRIES)(share)
-    lanes = max(1, int(ray.cluster_resources().get("CPU", 1)) // threads)
-    report, sizes = Report(), _Sizes(job, lanes)
-    waiting: dict[Any, _Share] = {}
     left: dict[int, int] = {}
+    job.begin()
     began = time.monotonic()
-
-    def over() -> bool:
-        return job.interrupted or job.stopped
 
     def settle(end: int) -> None:
         left[end] -= 1
@@ -180,53 +177,33 @@ def render_job(
             job.done = next(iter(left))
             del left[job.done]
 
-    def take(reference: Any) -> None:
-        done = waiting.pop(reference)
-        brought: Brought = ray.get(reference)
-        start = time.perf_counter()
-        job.join(brought.part)
-        report.merging += time.perf_counter() - start
-        report.add(brought)
-        sizes.learn(done, brought)
-        settle(done.end)
-        if progress is not None and progress(job.progress_at(sizes.samples)) is False:
-            job.stopped = True
-        if keeper is not None and keeper.due():
-            keeper.keep(job)
-
-    def wait() -> None:
-        ready, _ = ray.wait(list(waiting), num_returns=1, timeout=0.2)
-        for reference in ready:
-            take(reference)
-
-    try:
+    def calls() -> Iterator[tuple[Any, ...] | None]:
         for start, end in _ranges(job):
             left[end] = 1  # until all of its shares are sent
             for one in sizes.shares(start, end):
                 left[end] += 1
-                waiting[remote.remote(work, one.samples, one.tiles, one.from_lamps)] = one
-                while len(waiting) >= 2 * lanes and not over():
-                    wait()
-                if over():
-                    break
-            else:
-                settle(end)
-            while waiting and not over() and not _is_known(job):
-                wait()
-            if over():
-                break
-        while waiting and not over():
-            wait()
+                yield work, one.samples, one.tiles, one.from_lamps, one
+            settle(end)
+            if not _is_known(job):
+                yield None  # what is done decides on the next range
+
+    try:
+        for call, brought in dispatched(
+            ray, share, calls(), threads=threads, over=lambda: job.interrupted or job.stopped
+        ):
+            start = time.perf_counter()
+            job.join(brought.part)
+            report.merging += time.perf_counter() - start
+            report.add(brought)
+            sizes.learn(call[-1], brought)
+            settle(call[-1].end)
+            if progress is not None and progress(job.progress_at(sizes.samples)) is False:
+                job.stopped = True
+            if keeper is not None and keeper.due():
+                job.keep(keeper)
     except KeyboardInterrupt:
         job.interrupted = True
-    except ray.exceptions.RayError as error:
-        reason = " ".join(str(error).split())[:300].rstrip(".")
-        raise MachineError(f"The cluster lost a share of the work for good: {reason}.") from error
-    finally:
-        for reference in waiting:
-            ray.cancel(reference, force=True)
-    if keeper is not None:
-        keeper.keep(job)
+    job.keep(keeper)
     report.seconds = time.monotonic() - began
     return report
 
@@ -244,12 +221,16 @@ def solve(ray: Any, scene: Scene, settings: Settings, *, threads: int = 1) -> An
 
     Returns:
         The core's solution; the one that it finds itself, to the bit. None for other techniques.
+
+    Raises:
+        UsageError, MachineError: as for `render_job`.
     """
     if settings.technique != "radiosity":
         return None
     import numpy as np
 
     from illuminant.core import core, embree
+    from illuminant.farm.dispatch import dispatched, lanes
 
     embree()
     core_scene = scene.core(settings.threads)
@@ -258,18 +239,9 @@ def solve(ray: Any, scene: Scene, settings: Settings, *, threads: int = 1) -> An
     count, width = len(finder), finder.width
     del finder
     work = Work(f"{scene.hash()} {told}", told, threads, [ray.put(scene.to_bytes())])
-    lanes = max(1, int(ray.cluster_resources().get("CPU", 1)) // threads)
-    step = max(16, count // (8 * lanes))
-    remote = ray.remote(num_cpus=threads, max_retries=MOST_RETRIES)(rows)
-    waiting: list[Any] = []
-    found: list[Rows] = []
-    first = 0
-    while first < count or waiting:
-        while first < count and len(waiting) < 2 * lanes:
-            waiting.append(remote.remote(work, first, min(first + step, count)))
-            first += step
-        ready, waiting = ray.wait(waiting, num_returns=1)
-        found += ray.get(ready)
+    step = max(16, count // (8 * lanes(ray, threads)))
+    calls = ((work, first, min(first + step, count)) for first in range(0, count, step))
+    found = [result for _, result in dispatched(ray, rows, calls, threads=threads)]
     found.sort(key=lambda one: one.first)
     starts, end = [np.zeros(1, np.uint64)], 0
     for one in found:
@@ -308,6 +280,7 @@ def _ranges(job: Job) -> Iterator[tuple[int, int]]:
             yield first, min(first + STEP, job.settings.samples or 0)
         return
     while (end := job.next_end()) > job.done:
+        job.under_way = end
         yield job.done, end
 
 
@@ -333,9 +306,12 @@ class _Sizes:
         self._pixels = [(right - left) * (bottom - top) for left, top, right, bottom in areas]
         self._all = sum(self._pixels)
         self._caustics = job.settings.caustics
+        # What a checkpoint brought is not done again.
+        self._seen, self._from_lamps = job.core_render.seen()
         self._size = max(1.0, min(FIRST, self._all / (4 * lanes)))
         self._rates: list[float] = []
-        self._taken = job.done * self._all
+        held = (sum(end - start for start, end in seen) for seen in self._seen)
+        self._taken = sum(pixels * count for pixels, count in zip(self._pixels, held, strict=True))
 
     @property
     def samples(self) -> float:
@@ -352,24 +328,46 @@ class _Sizes:
         self._size = SECONDS * sorted(self._rates)[len(self._rates) // 4]
 
     def shares(self, first: int, end: int) -> Iterator[_Share]:
-        """A range of samples as shares."""
+        """What is missing of a range of samples, as shares."""
+        wanted = [_missing(seen, first, end) for seen in self._seen]
         start = 0
-        while start < len(self._pixels):
-            tiles, pixels = start, 0
-            while tiles < len(self._pixels) and (not pixels or pixels * (end - first) < self._size):
+        while start < len(wanted):
+            ranges, tiles, pixels = wanted[start], start, 0
+            count = sum(last - at for at, last in ranges)
+            while (
+                tiles < len(wanted)
+                and wanted[tiles] == ranges
+                and (not pixels or not count or pixels * count < self._size)
+            ):
                 pixels += self._pixels[tiles]
                 tiles += 1
-            yield from self._cut(first, end, (start, tiles), pixels, from_lamps=False)
+            for at, last in ranges:
+                yield from self._cut(at, last, end, (start, tiles), pixels, from_lamps=False)
             start = tiles
         if self._caustics:
-            yield from self._cut(first, end, (0, 0), self._all, from_lamps=True)
+            for at, last in _missing(self._from_lamps, first, end):
+                yield from self._cut(at, last, end, (0, 0), self._all, from_lamps=True)
 
     def _cut(
-        self, first: int, end: int, tiles: tuple[int, int], pixels: int, *, from_lamps: bool
+        self, at: int, last: int, end: int, tiles: tuple[int, int], pixels: int, *, from_lamps: bool
     ) -> Iterator[_Share]:
         """The samples of some tiles, cut where they are still too many."""
-        at = first
-        while at < end:
-            last = min(end, at + max(1, int(self._size / pixels)))
-            yield _Share((at, last), tiles, from_lamps, end, pixels)
-            at = last
+        while at < last:
+            until = min(last, at + max(1, int(self._size / pixels)))
+            yield _Share((at, until), tiles, from_lamps, end, pixels)
+            at = until
+
+
+def _missing(seen: list[tuple[int, int]], first: int, end: int) -> list[tuple[int, int]]:
+    """What of a range is in none of some ranges, which stand in order.
+
+    Example:
+        >>> _missing([(0, 4), (6, 8)], 2, 10)
+        [(4, 6), (8, 10)]
+    """
+    found = []
+    for start, stop in seen:
+        if start > first and first < end:
+            found.append((first, min(start, end)))
+        first = max(first, stop)
+    return [*found, (first, end)] if first < end else found

@@ -31,12 +31,13 @@ _MISSING = "The farm needs Ray: install it with `pip install illuminant[farm]`."
 
 
 @contextmanager
-def cluster(workers: int | None = None, address: str | None = None) -> Iterator[Any]:
+def cluster(workers: int | None = None, address: str | None = None, threads: int = 1) -> Iterator[Any]:
     """Ray, connected; what was started here is stopped at the end.
 
     Args:
-        workers: how many processors a cluster started here lends; default all.
+        workers: how many a cluster started here has; default as many as this machine has processors for.
         address: of a cluster that runs already, such as `ray://host:10001`, `host:6379` or `auto`.
+        threads: of a worker.
 
     Yields:
         The module `ray`.
@@ -49,6 +50,8 @@ def cluster(workers: int | None = None, address: str | None = None) -> Iterator[
         raise UsageError("--workers: is for a cluster that is started here; one at --address has its own.")
     if workers is not None and not 1 <= workers <= 1024:
         raise UsageError(f"--workers {workers}: expected a whole number from 1 to 1024.")
+    if not 1 <= threads <= 4096:
+        raise UsageError(f"--threads {threads}: a worker has 1 to 4096 threads.")
     # Ray reads these when it is imported.
     for name, value in _QUIET.items():
         os.environ.setdefault(name, value)
@@ -56,8 +59,12 @@ def cluster(workers: int | None = None, address: str | None = None) -> Iterator[
         import ray
     except ImportError as error:
         raise MachineError(_MISSING) from error
-    if ray.is_initialized():  # a cluster of the caller, which stays
-        yield ray
+    if ray.is_initialized():
+        if workers is not None or address is not None:
+            raise UsageError(
+                "This process is connected to a Ray cluster already: leave workers and address out."
+            )
+        yield ray  # the caller's, which stays
         return
     if address is not None:
         _reach(address)
@@ -65,7 +72,7 @@ def cluster(workers: int | None = None, address: str | None = None) -> Iterator[
     if address is None:
         options |= {
             "address": "local",
-            "num_cpus": workers or machine.cores(),
+            "num_cpus": threads * (workers or max(1, machine.cores() // threads)),
             "num_gpus": 0,
             "include_dashboard": False,
             "object_store_memory": OBJECT_STORE,

@@ -39,14 +39,12 @@ class Brought:
 
     Attributes:
         part: of the film (`Render.part`).
-        samples: over all pixels.
         seconds: of the work itself, and of preparing the render where the worker did not have it.
         prepared: seconds of the latter.
         process: number of the worker's process.
     """
 
     part: bytes
-    samples: int
     seconds: float
     prepared: float
     process: int
@@ -61,14 +59,12 @@ class Rows:
         starts: where each begins in the other two, and the end.
         columns: of the entries.
         values: of the entries.
-        process: number of the worker's process.
     """
 
     first: int
     starts: Any
     columns: Any
     values: Any
-    process: int
 
 
 _kept: dict[str, Any] = {}
@@ -103,6 +99,7 @@ def share(work: Work, samples: tuple[int, int], tiles: tuple[int, int] | None, f
         samples: first and last.
         tiles: first and last, by number.
         from_lamps: whether the paths from lamps of these samples are followed.
+        told: what the sender knows the share by.
     """
     began = time.perf_counter()
     render = _render(work)
@@ -110,8 +107,7 @@ def share(work: Work, samples: tuple[int, int], tiles: tuple[int, int] | None, f
     render.clear()
     render.run(*samples, tiles=tiles, from_lamps=from_lamps)
     part = render.part()
-    taken = int(render.statistics()["samples"])
-    return Brought(part, taken, time.perf_counter() - began, prepared, os.getpid())
+    return Brought(part, time.perf_counter() - began, prepared, os.getpid())
 
 
 def rows(work: Work, first: int, last: int) -> Rows:
@@ -134,4 +130,4 @@ def rows(work: Work, first: int, last: int) -> Rows:
         (scene,) = ray.get(work.references)
         _kept[key] = core().RowFinder(Scene.from_bytes(scene).core(work.threads), work.settings)
     starts, columns, values = _kept[key].find(first, last)
-    return Rows(first, starts, columns, values, os.getpid())
+    return Rows(first, starts, columns, values)
