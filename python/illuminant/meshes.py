@@ -39,6 +39,8 @@ FORMATS = ("obj", "ply", "stl", "glb", "gltf")
 MAX_BYTES = 4_000_000_000
 """The largest mesh file, after decompression."""
 
+PIECE = 1 << 20
+
 
 def format_of(path: str | os.PathLike[str]) -> str:
     """The format of a mesh file by its name.
@@ -94,7 +96,12 @@ def _bytes(path: Path) -> bytes:
         data = path.read_bytes()
         if path.name.lower().endswith(".gz"):
             with gzip.GzipFile(fileobj=io.BytesIO(data)) as stream:
-                data = stream.read(MAX_BYTES + 1)
+                # In pieces: one read would ask for the memory of the largest file at once.
+                pieces, size = [], 0
+                while size <= MAX_BYTES and (piece := stream.read(PIECE)):
+                    pieces.append(piece)
+                    size += len(piece)
+                data = b"".join(pieces)
     except FileNotFoundError:
         raise DataError("there is no such file") from None
     except (EOFError, gzip.BadGzipFile, zlib.error) as error:
@@ -146,6 +153,8 @@ def _part(geometry: Any, matrix: np.ndarray) -> Mesh:
     normals = geometry._cache.cache.get("vertex_normals")  # only those of the file: asking would make them
     uvs = getattr(geometry.visual, "uv", None)
     positions = np.array(geometry.vertices, dtype=np.float64)
+    if positions.ndim != 2 or positions.shape[1] != 3:
+        raise DataError("has vertices that are not three numbers each")
     mesh = Mesh(
         positions,
         np.array(geometry.faces, dtype=np.int64).reshape(-1, 3),

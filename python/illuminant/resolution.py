@@ -585,13 +585,24 @@ class Resolver:
         import numpy as np
 
         if isinstance(given, str):
+            import warnings
+            from tokenize import TokenError
+            from zipfile import BadZipFile
+
             file = FilePath(self.directory) / given
             try:
-                cells = np.load(file, allow_pickle=False)
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")  # that a file of Python 2 is slow to read
+                    cells = np.load(file, allow_pickle=False)
+                if not isinstance(cells, np.ndarray):
+                    cells.close()
+                    raise ValueError("it is an archive")
             except FileNotFoundError:
                 raise DataError("there is no such file", str(file)) from None
-            except (OSError, ValueError, EOFError) as error:
-                raise DataError(f"is no NumPy file of numbers ({error})", str(file)) from error
+            except (OSError, ValueError, EOFError, SyntaxError, TokenError, MemoryError, BadZipFile) as error:
+                # The header of a NumPy file is an expression of Python.
+                reason = " ".join(str(error).split())[:120] or "it does not fit into memory"
+                raise DataError(f"is no NumPy file of numbers ({reason})", str(file)) from error
         else:
             try:
                 cells = np.asarray(given, dtype=np.float32)
