@@ -39,6 +39,7 @@ class Target:
         longest: bytes of the longest input.
         wanted: executions in the long run.
         guided: whether coverage of the modules says anything; not where the core does all the work.
+        most_seconds: of the processor; more is a finding.
     """
 
     name: str
@@ -50,6 +51,7 @@ class Target:
     longest: int = 10_000
     wanted: int = 500_000
     guided: bool = True
+    most_seconds: float = MOST_SECONDS
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,7 @@ def execute(target: Target, data: bytes) -> Finding | None:
     except BaseException as error:  # a panic is no Exception
         return Finding(type(error).__name__, _place(error), " ".join(str(error).split())[:200], data)
     seconds = time.process_time() - begin
-    if seconds > MOST_SECONDS:
+    if seconds > target.most_seconds:
         return Finding("slow", target.name, f"{seconds:.1f} s", data)
     return None
 

@@ -355,7 +355,7 @@ def texture_exr(data: bytes) -> None:
     _environment(data, "t.exr")
 
 
-@target("density", "illuminant.resolution", wanted=200000)
+@target("density", "illuminant.resolution", wanted=200_000)
 def density(data: bytes) -> None:
     """The density of a medium as a NumPy file."""
     from illuminant.scene_file import resolve
@@ -506,7 +506,7 @@ def part(data: bytes) -> None:
         finite(np.asarray(render.layer("xyz")))
 
 
-@target("render", "illuminant.job", text=True, longest=6000, wanted=20000)
+@target("render", "illuminant.job", text=True, longest=6000, wanted=20_000, most_seconds=60.0)
 def render(data: bytes) -> None:
     """A scene file, and an image of a few pixels of it: no number of the image may be none unless it is counted."""
     import numpy as np

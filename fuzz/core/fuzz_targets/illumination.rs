@@ -3,8 +3,8 @@
 
 use illuminant_fuzz::{Bytes, density, unit};
 use illuminant_illumination::{
-    Film, Finish, Flakes, General, Historic, Illumination, IlluminationModel, Incidence, Index, Material, Prepare,
-    Surface,
+    Film, Finish, Flakes, General, Historic, Illumination, IlluminationModel, Incidence, Index, Material,
+    Prepare, Surface,
 };
 use illuminant_optics::facets::Shape;
 use illuminant_sampling::{Lanes, Uniform};

@@ -51,17 +51,23 @@ fuzz_target!(|data: &[u8]| {
     density(facets.lambda(v.to_array()));
     let l = b.above().to_array();
     assert!((0.0..=1.0001).contains(&facets.masking_shadowing(v.to_array(), l)));
-    let corners = [b.point(), b.point(), b.point()].map(|p| p.to_array());
-    let from = b.point().to_array();
+    // From micrometres to thousands of kilometres: beyond, squares leave single precision.
+    let place = |b: &mut Bytes<'_>| {
+        b.point().to_array().map(|x| if x.abs() < 1e-6 { 0.0 } else { x.clamp(-1e6, 1e6) })
+    };
+    let corners = [place(&mut b), place(&mut b), place(&mut b)];
+    let from = place(&mut b);
     let u = b.pair();
     if let Some(triangle) = SphericalTriangle::new(corners, from) {
         density(triangle.solid_angle());
         unit(Vec3::from(triangle.sample(u)));
     }
-    let size = [b.positive(), b.positive()];
-    if let Some(rectangle) = SphericalRectangle::new(corners[0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], size, from) {
+    let size = [b.positive(), b.positive()].map(|s| s.clamp(1e-3, 1e6));
+    if let Some(rectangle) = SphericalRectangle::new(corners[0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], size, from)
+    {
         density(rectangle.solid_angle());
-        unit(Vec3::from(rectangle.sample(u)));
+        // A point of the rectangle.
+        assert!(Vec3::from(rectangle.sample(u)).is_finite());
     }
     let doubles = |b: &mut Bytes<'_>, n: u8| -> Vec<f64> { (0..n).map(|_| f64::from(b.number())).collect() };
     let (planes, angles) = (b.byte() % 5, b.byte() % 5);

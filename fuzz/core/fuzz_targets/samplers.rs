@@ -4,11 +4,11 @@
 use glam::{DVec3, Mat3, Vec2, Vec3};
 use illuminant_color::RgbSystem;
 use illuminant_fuzz::{Bytes, density, unit};
+use illuminant_scene::LampChooser;
 use illuminant_scene::{
     Camera, Density, EnvironmentImage, Extent, Filtering, Footprint, Lens, LightTree, Phase, Texture, Wrap,
     on_triangle,
 };
-use illuminant_scene::LampChooser;
 use illuminant_spectrum::{Curve, SpectralRange};
 use libfuzzer_sys::fuzz_target;
 
@@ -18,7 +18,10 @@ fn environment(b: &mut Bytes<'_>) {
     let white = Curve::constant(1.0);
     let system = RgbSystem::named("sRGB").expect("sRGB");
     let range = SpectralRange::default();
-    let Ok(image) = EnvironmentImage::new((width, height), &rgb, &system, white, Mat3::IDENTITY, range) else { return };
+    let Ok(image) = EnvironmentImage::new((width, height), &rgb, &system, white, Mat3::IDENTITY, range)
+    else {
+        return;
+    };
     for _ in 0..4 {
         if let Some((uv, pdf)) = image.sample(b.pair()) {
             assert!(uv.is_finite(), "a place of {uv}");
@@ -47,7 +50,8 @@ fn light_tree(b: &mut Bytes<'_>) {
             })
         })
         .collect();
-    let afar: Vec<f32> = (0..count).map(|i| if extents[i].is_none() { b.positive().min(1e30) } else { 0.0 }).collect();
+    let afar: Vec<f32> =
+        (0..count).map(|i| if extents[i].is_none() { b.positive().min(1e30) } else { 0.0 }).collect();
     let tree = LightTree::new(&extents, &afar);
     for _ in 0..4 {
         let (point, normal) = (b.point(), b.direction());
@@ -70,7 +74,8 @@ fn texture(b: &mut Bytes<'_>) {
     let texture = if b.byte() & 1 == 1 { texture.filtered(Filtering::SummedArea) } else { texture };
     for _ in 0..4 {
         let place = Vec2::new(b.number(), b.number());
-        let footprint = Footprint { axes: [Vec2::new(b.number(), b.number()), Vec2::new(b.number(), b.number())] };
+        let footprint =
+            Footprint { axes: [Vec2::new(b.number(), b.number()), Vec2::new(b.number(), b.number())] };
         texture.lookup(place, &footprint);
     }
 }
@@ -82,7 +87,9 @@ fn camera(b: &mut Bytes<'_>) {
     };
     let (eye, target, up) = (double(b), double(b), double(b));
     let size = [1 + u32::from(b.byte()), 1 + u32::from(b.byte())];
-    let Ok(mut camera) = Camera::new(eye, target, up, b.between(0.0, 180.0), size, None, [0.0, 1.0]) else { return };
+    let Ok(mut camera) = Camera::new(eye, target, up, b.between(0.0, 180.0), size, None, [0.0, 1.0]) else {
+        return;
+    };
     if b.byte() & 1 == 1 {
         camera.lens = Some(Lens {
             radius: b.positive(),
@@ -113,7 +120,8 @@ fuzz_target!(|data: &[u8]| {
             }
         }
         _ => {
-            let size = [1 + usize::from(b.byte() % 4), 1 + usize::from(b.byte() % 4), 1 + usize::from(b.byte() % 4)];
+            let size =
+                [1 + usize::from(b.byte() % 4), 1 + usize::from(b.byte() % 4), 1 + usize::from(b.byte() % 4)];
             let values: Vec<f32> = (0..size.iter().product()).map(|_| b.positive()).collect();
             if let Some(found) = Density::new(size, values) {
                 density(found.at(b.point()));
