@@ -25,7 +25,7 @@ CARGO_TEST = ILLUMINANT_EMBREE="$$(ls "$(CURDIR)"/.venv/lib/python3*/site-packag
 CLIPPY = PYO3_BUILD_EXTENSION_MODULE=1 PYO3_CONFIG_FILE="$$(ls "$(CURDIR)"/target/maturin/pyo3-config-*.txt | tail -n 1)" \
   cargo clippy --release --workspace --all-targets --quiet -- -D warnings
 
-.PHONY: help setup demo test test-slow lint format bench site wheel requirements clean FORCE
+.PHONY: help setup demo test test-slow lint format bench kills soak fuzz site wheel requirements clean FORCE
 
 help: ## List the verbs
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 22
@@ -64,6 +64,15 @@ bench: .venv/.core ## Measure beside peers and beside raw Embree; prints tables 
 	@peers=$$(benches/peers.sh); eval "$$peers"; \
 	for script in compare_mitsuba embree_limit lanes memory fitted color dither scanline glossy many_lamps form_factors viewer radiance; do \
 	  echo "illuminant: benches/$$script.py"; $(BIN)/python benches/$$script.py; done
+
+kills: .venv/.core ## Kill renders at random moments, 200 times, and record it (endurance/kills.txt)
+	@$(BIN)/python endurance/kills.py --kills 200 --record endurance/kills.txt
+
+soak: .venv/.core ## Half an hour of mixed work under a memory limit, recorded (endurance/soak.txt)
+	@$(BIN)/python endurance/soak.py --minutes 30 --record endurance/soak.txt
+
+fuzz: .venv/.core ## Ten million hostile inputs for the readers, recorded (fuzz/last-run.txt)
+	@$(BIN)/python fuzz/run.py
 
 site: .venv/.core build/atlas/index.md ## Build the documentation site in build/site/html (docs, atlas, references)
 	@$(BIN)/python tools/site/build.py build/site --atlas build/atlas --notebooks

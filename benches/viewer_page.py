@@ -1,6 +1,6 @@
 """A page of the viewer without a browser: it asks as a page asks, and makes of every frame what is sent to a browser.
 
-frame -> look -> codes -> PNG      as `illuminant.viewer.session.Session` does, by viser's own encoder
+frame -> look -> codes -> PNG      as `illuminant.viewer.session.Session` does, on a thread of its own
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from viser._scene_api import _encode_image_binary
 
 from illuminant.viewer.composition import compose
 from illuminant.viewer.refinement import Frame, Refiner
+from illuminant.viewer.sending import Sender, encoded
 from illuminant.viewer.state import State
 
 SCENES = Path(__file__).resolve().parent.parent / "scenes"
@@ -57,13 +57,21 @@ class Page:
         self.sent: list[Sent] = []
         self.said: list[str] = []
         self._news = threading.Condition()
+        self._frame: Frame | None = None
+        self._sender = Sender(self._send, lambda text: self._say(text, True))
         self.refiner = Refiner(self._deliver, self._say)
 
     def __enter__(self) -> Page:
         return self
 
     def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End all work of the page."""
         self.refiner.close()
+        self._sender.close()
+        self._frame = None
 
     def ask(self) -> int:
         """Ask for what is chosen; the number of the request."""
@@ -99,8 +107,14 @@ class Page:
         if self.state.exposure is None:
             look = replace(self.state.look, exposure=frame.image.auto_exposure())
             self.state = replace(self.state, look=look)
-        codes = compose(frame.image.xyz, self.state).codes
-        png = _encode_image_binary(codes, "png", jpeg_quality=None)[1]
+        self._frame = frame
+        self._sender.ask()
+
+    def _send(self) -> None:
+        frame = self._frame
+        if frame is None:
+            return
+        png = encoded(compose(frame.image.xyz, self.state).codes)
         seconds = time.perf_counter() - frame.request.asked
         with self._news:
             self.sent.append(Sent(frame.request.number, frame.preview, frame.samples, seconds, len(png)))

@@ -70,7 +70,7 @@ def main() -> None:
     page = Page(start, size)
     while (now := time.monotonic() - begun) < length:
         if chance.random() < 0.05:
-            page.refiner.close()
+            page.close()
             wrong |= set(page.said)
             page, pages = Page(start, size), pages + 1
             page.ask()
@@ -81,7 +81,7 @@ def main() -> None:
         if now >= printed:
             print(f"{now:8.0f}{memory[-1][1]:8.0f}{threading.active_count():9}{done:9}{pages:7}", flush=True)
             printed += length / 12
-    page.refiner.close()
+    page.close()
     wrong |= set(page.said)
     thirds = [
         statistics.median(mb for at, mb in memory if low <= at / length < low + 1 / 3)

@@ -50,3 +50,23 @@ def command() -> Callable[..., subprocess.CompletedProcess[str]]:
         return subprocess.run([str(program), *map(str, arguments)], **options)
 
     return run
+
+
+@pytest.fixture
+def inside(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Runs `illuminant` with the given arguments as `command` does, but in this process, which saves its start."""
+
+    def call(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+        from illuminant.cli import run
+
+        words = [str(argument) for argument in arguments]
+        with monkeypatch.context() as context:
+            if cwd is not None:
+                context.chdir(cwd)
+            code = run(words)
+        captured = capsys.readouterr()
+        return subprocess.CompletedProcess(words, code, captured.out, captured.err)
+
+    return call

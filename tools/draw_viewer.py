@@ -1,7 +1,7 @@
 """Draw the pictures of docs/viewer.md: `python tools/draw_viewer.py` writes screenshots of the page into docs/images.
 
 The page is opened in Chromium without a window (`chromium` on the path) and used as a person would use it. With names
-(`look`, `change`, `measure`, `compare`) only those are drawn.
+(`look`, `change`, `measure`, `illuminance`, `compare`) only those are drawn.
 """
 
 from __future__ import annotations
@@ -139,6 +139,22 @@ def measure(browser: Any) -> None:
         page.save(IMAGES / "viewer-measure.png")
 
 
+def illuminance(browser: Any) -> None:
+    """Illuminance in false colours, by the solution of radiosity."""
+    with opened(browser, "cornell.toml", technique="radiosity") as page:
+        page.rendered(1)
+        page.fold("Picture", "Measure", "Display")
+        page.choose("show", "illuminance in false colours")
+
+        def fine() -> bool:
+            lux = page.session.sent.illuminance
+            return lux is not None and lux.size > 50_000
+
+        page.until(fine)
+        page.tab.wait_for_timeout(1500)
+        page.save(IMAGES / "viewer-illuminance.png")
+
+
 def compare(browser: Any) -> None:
     """Two lamps side by side."""
     with opened(browser, "cornell.toml", technique="radiosity") as page:
@@ -157,6 +173,7 @@ DRAWN = {
     "viewer-look.png": look,
     "viewer-change.png": change,
     "viewer-measure.png": measure,
+    "viewer-illuminance.png": illuminance,
     "viewer-compare.png": compare,
 }
 

@@ -477,19 +477,51 @@ class Scene:
 def pairs() -> list[tuple[str, str, Literal["sensible", "warned", "refused"], str]]:
     """Every technique with every illumination model: names, verdict, reason."""
 
+class Cancelled(Exception):
+    """A solution was cancelled."""
+
+class Cancel:
+    """Tells a solution under way that nobody waits for it any more."""
+
+    def cancel(self) -> None:
+        """Asks the work to stop; from any thread."""
+    @property
+    def cancelled(self) -> bool:
+        """Whether it was asked to."""
+
+class RowFinder:
+    """Finds rows of form factors of `radiosity`, for work that is shared out."""
+
+    def __init__(self, scene: Scene, settings: str) -> None:
+        """Cuts the surfaces of a scene as settings (JSON) say."""
+    def __len__(self) -> int:
+        """How many rows there are."""
+    @property
+    def width(self) -> int:
+        """How long they are."""
+    def find(
+        self, first: int, last: int
+    ) -> tuple[NDArray[np.uint64], NDArray[np.uint32], NDArray[np.float32]]:
+        """Rows first..last: where each begins, columns, values."""
+
 class Solution:
     """The light between the surfaces of a scene (`illuminant.radiosity`)."""
 
-    def __init__(self, scene: Scene, settings: str) -> None:
-        """Solves for it, as settings (JSON) say."""
+    def __init__(
+        self, scene: Scene, settings: str, cancel: Cancel | None = None, rows: dict[str, Any] | None = None
+    ) -> None:
+        """Solves for it, as settings (JSON) say; with all rows of form factors (`starts`, `columns`, `values`,
+        `width`), if they are known. Raises `Cancelled` when it is told to stop."""
     @staticmethod
     def restored(scene: Scene, settings: str, fitted_to: Scene, parts: dict[str, Any]) -> Solution:
         """A solution from its `parts`; `fitted_to` is the scene to which its spectral samples were fitted."""
     def parts(self) -> dict[str, Any]:
         """What of it cannot be found again without much work."""
-    def repainted(self, scene: Scene, settings: str) -> Solution:
+    def repainted(self, scene: Scene, settings: str, cancel: Cancel | None = None) -> Solution:
         """The solution of the same surfaces with the materials of another scene."""
-    def moved(self, scene: Scene, settings: str, objects: list[int]) -> tuple[Solution, int]:
+    def moved(
+        self, scene: Scene, settings: str, objects: list[int], cancel: Cancel | None = None
+    ) -> tuple[Solution, int]:
         """The solution after objects have moved, and how many rows of form factors were found again."""
     def illuminance(
         self, scene: Scene, points: NDArray[np.float64], normals: NDArray[np.float64], samples: int
@@ -509,8 +541,25 @@ class Render:
         """A render of a scene that differs in its camera, or by other settings, in the same wavelengths."""
     def solution(self) -> Solution | None:
         """The light between surfaces, if the technique has solved for it."""
-    def run(self, first: int, last: int, progress: Callable[[float], object] | None = None) -> bool:
-        """Renders samples first..last of every pixel; False when `progress` returned False and so cancelled it."""
+    def run(
+        self,
+        first: int,
+        last: int,
+        progress: Callable[[float], object] | None = None,
+        *,
+        tiles: tuple[int, int] | None = None,
+        from_lamps: bool = True,
+    ) -> bool:
+        """Renders samples first..last of every pixel, or of a range of tiles; False when `progress` returned False and
+        so cancelled it. `from_lamps`: with the paths from lamps of these samples, where the settings ask for such."""
+    def tiles(self) -> list[list[int]]:
+        """x₀, y₀, x₁, y₁ of each tile."""
+    def part(self) -> bytes:
+        """All that the film holds, for `join`."""
+    def join(self, part: bytes) -> None:
+        """Adds what another render of the same scene with the same settings has found; all of it, or ValueError."""
+    def clear(self) -> None:
+        """Forgets all samples, but nothing that was prepared for them."""
     def spectral_error(self) -> dict[str, Any]:
         """ΔE00 of the spectral sampling against 1 nm in this scene: mean, p95, max, the lamp and material of the
         largest, and how many pixels were `judged`."""

@@ -147,6 +147,7 @@ def audit(
     angles_deg: Sequence[float] = ANGLES_DEG,
     wavelengths_nm: Sequence[float] = WAVELENGTHS_NM,
     draws: int = 20_000,
+    allow_outside: bool = False,
 ) -> list[Audit]:
     """Audit a material, or every material of a scene.
 
@@ -157,6 +158,7 @@ def audit(
         angles_deg: angles of incidence from the normal, 0 to 180; above 90 from inside.
         wavelengths_nm: wavelengths, 380 to 780.
         draws: directions drawn for each angle, 100 to 10,000,000.
+        allow_outside: whether the files that a scene file names may lie outside its folder.
 
     Raises:
         SceneError, DataError: the target is not understood, or a number is out of range.
@@ -179,7 +181,7 @@ def audit(
     elif isinstance(target, (str, os.PathLike)):
         file, _, name = os.fspath(target).partition("#")
         if Path(file).suffix == ".toml" or Path(file).is_file():
-            scene, only = Scene.load(file), name or None
+            scene, only = Scene.load(file, allow_outside=allow_outside), name or None
         else:
             scene = _of_table(str(target), materials.find(str(target)))
     else:

@@ -14,6 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from illuminant import machine
 from illuminant.core import core
 from illuminant.difference import diff
 from illuminant.errors import UsageError
@@ -143,6 +144,8 @@ def compare(
     illuminations: Sequence[str] | None = None,
     only: str | None = None,
     on_start: Callable[[Pair], object] | None = None,
+    allow_outside: bool = False,
+    memory_limit: int | str | None = None,
     **options: Any,
 ) -> list[Comparison]:
     """Render a scene by all pairs that are not refused, or some; `path` with `general` is the reference.
@@ -154,6 +157,8 @@ def compare(
         techniques, illuminations: only these; default all.
         only: these pairs in this order, such as "gouraud:phong,path:general"; in place of the two.
         on_start: called with each pair before it is rendered.
+        allow_outside: whether the files that a scene file names may lie outside its folder.
+        memory_limit: as for `render`.
         options: as for `render`.
 
     Raises:
@@ -165,7 +170,8 @@ def compare(
         >>> found[0].delta_e                                      # doctest: +SKIP
         0.0
     """
-    scene = scene if isinstance(scene, Scene) else load(scene)
+    with machine.limited_to(memory_limit):
+        scene = scene if isinstance(scene, Scene) else load(scene, allow_outside=allow_outside)
     if only is not None and (techniques is not None or illuminations is not None):
         raise UsageError("--only names pairs, and stands in place of --techniques and --illuminations.")
     chosen = pairs_named(only) if only is not None else _chosen(techniques, illuminations)
@@ -174,7 +180,13 @@ def compare(
     for pair in [reference, *(pair for pair in chosen if pair != reference)]:
         if on_start is not None:
             on_start(pair)
-        images[pair] = render(scene, technique=pair.technique, illumination=pair.illumination, **options)
+        images[pair] = render(
+            scene,
+            technique=pair.technique,
+            illumination=pair.illumination,
+            memory_limit=memory_limit,
+            **options,
+        )
     right = images[reference]
     exposure = right.exposure or right.auto_exposure()
     level = float(right.xyz[..., 1].mean()) or 1.0

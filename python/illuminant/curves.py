@@ -21,7 +21,7 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 from typing import Any
 
-from illuminant import spectra
+from illuminant import sources, spectra
 from illuminant.core import core
 from illuminant.errors import DataError, suggestion
 from illuminant.report import Path, Report, read_table
@@ -52,6 +52,7 @@ class Curves:
         report: takes the mistakes.
         named: the `[spectra]` table, as written.
         directory: folder that file names are relative to.
+        allow_outside: whether files may lie outside that folder.
         range_nm: the wavelength range of the scene.
     """
 
@@ -61,10 +62,12 @@ class Curves:
         named: Mapping[str, Any] | None = None,
         directory: str | os.PathLike[str] = ".",
         range_nm: tuple[float, float] = (380.0, 780.0),
+        *,
+        allow_outside: bool = False,
     ) -> None:
         self.report = report
         self.named = dict(named or {})
-        self.directory = FilePath(directory)
+        self.directory, self.allow_outside = FilePath(directory), allow_outside
         self.range_nm = (float(range_nm[0]), float(range_nm[1]))
         self.warnings: list[str] = []
         # Where materials are made from RGB, with the error; whether any is not; and the largest error by provenance.
@@ -199,10 +202,9 @@ class Curves:
                 spectrum = replace(spectrum, values=values, outside=table.outside or spectrum.outside)
         except DataError as error:
             kind = (
-                "missing-file"
-                if source == "file" and not (self.directory / str(table.file)).is_file()
-                else "spectrum"
+                "missing-file" if error.message in ("there is no such file", "no such file") else "spectrum"
             )
+            kind = "outside" if sources.is_outside(error) else kind
             self.report.add_data_error((*path, source), error, kind)
             return None
         return spectrum
@@ -211,7 +213,7 @@ class Curves:
         return self._library(str(table.library), (*path, "library"))
 
     def _from_file(self, table: SpectrumTable, use: str, path: Path) -> Spectrum | None:
-        file = self.directory / str(table.file)
+        file = sources.located(str(table.file), self.directory, self.allow_outside)
         spectrum = spectra.read(file, column=table.column)
         if not spectrum.quantity and table.scale is not None:
             # Percents, say: what the values are is known only when they have been scaled.

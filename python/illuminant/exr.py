@@ -33,8 +33,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from illuminant import machine
+from illuminant import machine, sources
 from illuminant.errors import ImageError, UsageError
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -49,6 +50,9 @@ LARGEST_HALF = 65504.0
 
 LARGEST = 1 << 31
 """Values (pixels times channels) of the largest file that is read."""
+
+MOST_BYTES = 16_000_000_000
+"""The largest file."""
 
 BYTES_A_VALUE = 12
 """Memory that a value takes while a file is read: 4 as it is in the file, and 8 in an image."""
@@ -209,10 +213,10 @@ def _probe(path: Path) -> None:
 def _check_magic(path: str | Path) -> None:
     """Refuse what is no EXR at all in plainer words than the library's."""
     try:
-        with open(path, "rb") as file:
+        with sources.opened(path, MOST_BYTES) as file:
             magic = file.read(4)
-    except OSError as error:
-        raise ImageError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
+    except SourceError as error:
+        raise ImageError(f"{path} cannot be read: {error.clause}.") from None
     if magic != MAGIC:
         raise ImageError(f"{path} cannot be read: it does not begin as an EXR file does.")
 

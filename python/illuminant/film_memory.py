@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from illuminant import machine
-from illuminant.errors import MachineError
 from illuminant.settings import SCANLINE, Settings
 
-__all__ = ["check_memory", "check_shadow_maps", "memory_needed", "shadow_map_memory"]
+__all__ = ["check_memory", "check_shadow_maps", "lanes", "memory_needed", "shadow_map_memory"]
 
 
 def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
@@ -30,12 +29,12 @@ def memory_needed(settings: Settings, pixels: int, lamps: int = 1) -> int:
     channels += sum({"depth": 2, "samples": 1, "terms": 15}.get(name, 3) for name in settings.layers)
     channels += 3 * lamps if settings.lamps else 0
     if settings.keep_spectra:
-        channels += _lanes(settings.sampling) * (1 + lamps * settings.lamps)
+        channels += lanes(settings.sampling) * (1 + lamps * settings.lamps)
     # Paths from lamps have sums of their own.
     return pixels * ((36 + 16 * settings.caustics) * channels + 4 * (1 + settings.caustics))
 
 
-def _lanes(sampling: str) -> int:
+def lanes(sampling: str) -> int:
     """Roughly how many samples a spectral sampling has."""
     name, _, rest = sampling.partition(":")
     numbers = [int(part) for part in rest.replace(":", ",").split(",") if part.isdigit()]
@@ -50,12 +49,11 @@ def check_memory(settings: Settings, pixels: int, lamps: int = 1) -> None:
     Raises:
         MachineError: one sentence with both amounts.
     """
-    needed, free = memory_needed(settings, pixels, lamps), machine.memory_available()
-    if free is not None and needed > free:
-        raise MachineError(
-            f"An image of {pixels:,} pixels with these layers needs about {machine.size(needed)} of memory, "
-            f"and {machine.size(free)} are free: choose a smaller --size or fewer layers."
-        )
+    machine.refuse(
+        f"An image of {pixels:,} pixels with these layers",
+        memory_needed(settings, pixels, lamps),
+        "choose a smaller --size or fewer layers",
+    )
 
 
 def shadow_map_memory(settings: Settings, description: Mapping[str, Any]) -> int:
@@ -89,9 +87,8 @@ def check_shadow_maps(settings: Settings, description: Mapping[str, Any]) -> Non
     Raises:
         MachineError: one sentence with both amounts.
     """
-    needed, free = shadow_map_memory(settings, description), machine.memory_available()
-    if free is not None and needed > free:
-        raise MachineError(
-            f"The shadow maps of this scene need about {machine.size(needed)} of memory, and {machine.size(free)} are "
-            "free: choose smaller ones, such as --shadows maps:512, or --shadows rays."
-        )
+    machine.refuse(
+        "The set of shadow maps of this scene",
+        shadow_map_memory(settings, description),
+        "choose smaller ones, such as --shadows maps:512, or --shadows rays",
+    )

@@ -9,17 +9,19 @@ Example:
 from __future__ import annotations
 
 import math
+import os
 import platform
 import sys
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from illuminant import embree as embree_library
-from illuminant import machine, processor
+from illuminant import machine, processor, sources
 from illuminant.core import core, embree
-from illuminant.errors import Error, ImageError
+from illuminant.errors import Error, ImageError, UsageError
 
-__all__ = ["PACKAGES", "image_facts", "machine_facts", "remake"]
+__all__ = ["PACKAGES", "image_facts", "machine_facts", "remake", "same_scene"]
 
 # Module, package to install, what for, and whether rendering needs it.
 PACKAGES = (
@@ -29,6 +31,7 @@ PACKAGES = (
     ("trimesh", "trimesh", "OBJ, PLY, STL and GLB meshes", True),
     ("flip_evaluator", "flip-evaluator", "FLIP in illuminant diff", False),
     ("matplotlib", "matplotlib", "plots", False),
+    ("ray", "ray", "illuminant farm", False),
 )
 
 # What of a look is said in words; the rest is in --json.
@@ -148,7 +151,7 @@ def _run_length_facts(path: Path) -> dict[str, Any]:
 
     picture = Picture.open(path)
     display = picture.display
-    packed = run_length.compression(path.read_bytes(), str(path))
+    packed = run_length.compression(sources.read(path, sys.maxsize), str(path))
     matte = "" if picture.matte is None else " and a matte"
     light = "linear" if display.gamma in (None, 1.0) else f"γ = {display.gamma:g}"
     primaries = ", ".join(f"({x:g}, {y:g})" for x, y in display.primaries)
@@ -232,8 +235,89 @@ def _exr_facts(path: Path) -> dict[str, Any]:
     }
     if contents.wavelengths_nm is not None:
         facts["wavelengths_nm"] = [float(wavelength) for wavelength in contents.wavelengths_nm]
-    facts["remake"] = remake(settings, path, None)
+    asked = _asked_layers(contents.layers) | ({"half": True} if contents.half else {})
+    facts["remake"] = remake(settings | asked, path, None)
     return facts
+
+
+_OPTIONS = (
+    "technique",
+    "illumination",
+    "sampling",
+    "depth",
+    "filter",
+    "sampler",
+    "seed",
+    "error",
+    "develop_for",
+    "caustics",
+    "ambient",
+    "threshold",
+    "light_centres",
+    "cones",
+    "interpolation",
+    "shading",
+    "shadows",
+    "antialiasing",
+    "infinite",
+    "subdivide",
+    "elements",
+    "patches",
+    "adaptive",
+    "form_factors",
+    "solver",
+    "light_samples",
+    "gather",
+    "mechanisms",
+    "frustum",
+    "cube",
+    "layers",
+    "keep_spectra",
+    "lamps",
+    "half",
+)
+"""What a header names that is an option of `illuminant render` under the same name."""
+
+
+def _asked_layers(names: Iterable[str]) -> dict[str, Any]:
+    """The options that make the layers of an image.
+
+    Example:
+        >>> _asked_layers(["depth", "diffuse", "specular", "lamp:sun"])
+        {'layers': 'depth,terms', 'lamps': True}
+    """
+    names = list(names)
+    asked: list[str] = [name for name in ("depth", "normal", "albedo", "samples") if name in names]
+    asked += ["terms"] * ("diffuse" in names)
+    return {
+        **({"layers": ",".join(asked)} if asked else {}),
+        **({"keep_spectra": True} if "spectra" in names else {}),
+        **({"lamps": True} if any(name.startswith("lamp:") for name in names) else {}),
+    }
+
+
+def same_scene(settings: Mapping[str, Any], scene: str | os.PathLike[str]) -> bool:
+    """Whether an image was made from a scene as it is now: the hash in its header is that of the scene.
+
+    Args:
+        settings: of the image, as its header states them.
+        scene: a scene file.
+
+    Raises:
+        UsageError: the header names no scene.
+        SceneError: the scene has mistakes.
+    """
+    from illuminant.job import resized
+    from illuminant.scene import Scene
+
+    known = settings.get("scene_hash")
+    if not isinstance(known, str):
+        raise UsageError("--scene: the image does not say which scene it was made from.")
+    now = Scene.load(scene)
+    size = settings.get("size")
+    if isinstance(size, list) and len(size) == 2 and _numbers(size) and min(size) >= 1:
+        now = resized(now, (int(size[0]), int(size[1])))
+    return now.hash() == known
 
 
 def remake(
@@ -257,17 +341,27 @@ def remake(
     if not settings.get("scene") or "developed" in settings:
         return None
     if isinstance(settings.get("command"), str):  # of a contact sheet
-        return f"{settings['command']} -o {shlex.quote(str(path))}"
+        try:
+            told = shlex.split(settings["command"])
+        except ValueError:
+            return None
+        # A header may come from anybody: nothing but our own command is passed on, with its words quoted.
+        return shlex.join([*told, "-o", str(path)]) if told[:2] == ["illuminant", "compare"] else None
     words = ["illuminant", "render", str(settings["scene"]), "-o", str(path)]
+    if _number(settings.get("frame")):
+        words += ["--frames", str(settings["frame"])]
     samples = settings.get("samples")
     if samples is not None:
         words += ["--samples", str(max(samples) if isinstance(samples, list) else samples)]
     if settings.get("size"):
         width, height = settings["size"]
         words += ["--size", f"{width}x{height}"]
-    for key in ("technique", "illumination", "sampling", "depth", "filter", "seed", "error", "develop_for"):
-        if settings.get(key) is not None:
-            words += [f"--{key.replace('_', '-')}", str(settings[key])]
+    for key in _OPTIONS:
+        value = settings.get(key)
+        if value is True:
+            words.append(f"--{key.replace('_', '-')}")
+        elif value is not None and value is not False:
+            words += [f"--{key.replace('_', '-')}", str(value)]
     if exposure is not None:
         words += ["--exposure", f"{exposure:g}"]
     from illuminant.display.gamut import DEFAULT

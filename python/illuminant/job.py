@@ -26,16 +26,17 @@ from __future__ import annotations
 import os
 import time as clock
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from illuminant import machine
+from illuminant import job_memory, machine
+from illuminant.checkpoint import Checkpoint, Keeper
 from illuminant.core import core, embree
-from illuminant.errors import Error, MachineError, UsageError
+from illuminant.errors import DataError, Error, MachineError, UsageError
 from illuminant.examination import WORDS, refuse
 from illuminant.film_memory import check_memory, check_shadow_maps
 from illuminant.image import Image
-from illuminant.settings import resolve
+from illuminant.settings import SOLVED, Settings, resolve
 
 if TYPE_CHECKING:
     import numpy as np
@@ -54,12 +55,15 @@ __all__ = [
     "next_range",
     "resized",
     "standard_error_fraction",
+    "stated",
 ]
 
 FAST_UNTIL, STEP = 64, 64
 LEAST_SAMPLES_FOR_ERROR = 64
 PIXELS_WITHIN_ERROR = 0.95
 MOST_SAMPLES = 2**32 - 1
+COUNTED = ("stratified", "jittered", "poisson-disk")
+"""Samplers whose numbers depend on how many samples there shall be."""
 
 
 @dataclass(frozen=True)
@@ -139,6 +143,10 @@ class Job:
         solution: the core's, where the light between surfaces has been solved for already.
         like: a job of the same scene with another camera or other settings, whose wavelengths are taken over: to fit
             them again takes longer than a first image of few pixels.
+        checkpoint: of the same render, which goes on from there.
+        solve_by: solves for the light between surfaces in place of this process's threads: takes the scene and the
+            settings, and returns the core's solution, or None to leave it to them.
+        allow_outside, memory_limit: as for `illuminant.render`.
         options: as `illuminant.render`.
 
     Attributes:
@@ -154,9 +162,26 @@ class Job:
         *,
         solution: Any = None,
         like: Job | None = None,
+        checkpoint: Checkpoint | None = None,
+        solve_by: Callable[[Scene, Settings], Any] | None = None,
+        allow_outside: bool = False,
+        memory_limit: int | str | None = None,
         **options: Any,
     ) -> None:
-        self.scene, self.source = _scene(scene)
+        with machine.limited_to(memory_limit):
+            self._prepare(scene, solution, like, checkpoint, solve_by, allow_outside, options)
+
+    def _prepare(
+        self,
+        scene: Scene | str | os.PathLike[str],
+        solution: Any,
+        like: Job | None,
+        checkpoint: Checkpoint | None,
+        solve_by: Callable[[Scene, Settings], Any] | None,
+        allow_outside: bool,
+        options: dict[str, Any],
+    ) -> None:
+        self.scene, self.source = _scene(scene, allow_outside)
         defaults = self.scene.render_defaults
         self.settings = resolve(defaults, **options)
         if self.settings.size is not None:
@@ -172,7 +197,13 @@ class Job:
         lamps += sum(thing["emission"] is not None for thing in description["objects"])
         check_memory(self.settings, width * height, lamps)
         check_shadow_maps(self.settings, description)
+        job_memory.check(self.settings, self.scene, width * height, lamps)
         embree()
+        self._spent, self._kept_solution = 0.0, b""
+        if checkpoint is not None:
+            checkpoint.check(self.identity())
+            if checkpoint.solution and solution is None:
+                solution = self._restored(checkpoint.solution)
         self._began = clock.monotonic()
         try:
             self.core_scene = self.scene.core(self.settings.threads)
@@ -180,6 +211,8 @@ class Job:
             # What the lanes of kept spectra mean is fitted with them.
             if self.settings.keep_spectra or self.settings.develop_for:
                 like = None
+            if solution is None and solve_by is not None and self.settings.technique in SOLVED:
+                solution = solve_by(self.scene, self.settings)
             make: Any = core().Render if like is None else like.core_render.again
             self.core_render: Any = make(self.core_scene, self.settings.to_core(), solution)
         except Error:
@@ -190,6 +223,61 @@ class Job:
             raise UsageError(self._blame(options) + _sentence(error)) from error
         except MemoryError as error:
             raise MachineError("There is not enough memory for this scene and image.") from error
+        if checkpoint is not None:
+            self.join(checkpoint.part)
+            self.done, self._spent = checkpoint.done, checkpoint.seconds
+
+    def identity(self) -> dict[str, Any]:
+        """What must be equal for samples to be those of one image: scene, settings, versions."""
+        import illuminant
+
+        chosen = asdict(self.settings)
+        free = {"threads", "time", "size"}
+        if self.settings.sampler not in COUNTED:
+            free.add("samples")
+        kept = {key: list(one) if isinstance(one, tuple) else one for key, one in chosen.items()}
+        return {
+            "scene": self.scene.hash(),
+            "size": list(self.scene.description["camera"]["size"]),
+            **{key: one for key, one in kept.items() if key not in free},
+            "version": illuminant.__version__,
+            "embree": embree(),
+        }
+
+    def join(self, part: bytes) -> None:
+        """Add samples that another process has taken for the same render (`core_render.part()`).
+
+        Raises:
+            DataError: the bytes are damaged, of another render, or hold samples that are here already.
+        """
+        try:
+            self.core_render.join(part)
+        except ValueError as error:
+            raise DataError(_sentence(error)) from error
+
+    def checkpoint(self) -> Checkpoint:
+        """All that is needed to go on from here in another process."""
+        return Checkpoint(
+            self.identity(), self.done, self._seconds(), self.core_render.part(), self.solution_bytes()
+        )
+
+    def solution_bytes(self) -> bytes:
+        """The light between surfaces as solved for; empty where there is none, or none that can be kept."""
+        from illuminant.radiosity import Solution
+
+        if self.settings.technique not in SOLVED or self.settings.technique == "specular-radiosity":
+            return b""
+        if not self._kept_solution:
+            found = Solution(self.scene, self.settings, self.core_render.solution())
+            self._kept_solution = found.to_bytes()
+        return self._kept_solution
+
+    def _restored(self, content: bytes) -> Any:
+        """The core's solution from its bytes."""
+        from illuminant.radiosity import Solution
+
+        self._kept_solution = content
+        return Solution.from_bytes(content, "the solution of the checkpoint").core_solution
 
     def _blame(self, options: dict[str, Any]) -> str:
         """The option that the core refuses, as the beginning of a sentence."""
@@ -215,21 +303,22 @@ class Job:
         """End the work at the next tile, as Ctrl-C does; for signal handlers."""
         self.interrupted = True
 
-    def passes(self, progress: OnProgress | None = None) -> Iterator[int]:
+    def passes(self, progress: OnProgress | None = None, keeper: Keeper | None = None) -> Iterator[int]:
         """Render range after range, and yield the number of samples each pixel then holds.
 
         Ends when the settings say so, or after Ctrl-C (`interrupted`), or after `progress` returned False
-        (`stopped`).
+        (`stopped`). With a keeper there are checkpoints on the way, and one of the end.
         """
         self._began = clock.monotonic()
-        while not (self.interrupted or self.stopped) and (end := self._next()) > self.done:
-            if not self._run(end, progress):
-                return
-            self.done = end
-            yield end
+        while not (self.interrupted or self.stopped) and (end := self.next_end()) > self.done:
+            if self._run(end, progress, keeper):
+                self.done = end
+                yield end
+        if keeper is not None:
+            keeper.keep(self)
 
-    def _next(self) -> int:
-        """End of the next range; `done` when there shall be none."""
+    def next_end(self) -> int:
+        """End of the next range of samples; `done` when there shall be none."""
         settings = self.settings
         end = next_range(self.done, settings.samples)
         if (
@@ -239,7 +328,7 @@ class Job:
         ):
             return self.done
         if settings.time is not None and self.done:
-            elapsed = clock.monotonic() - self._began
+            elapsed = self._seconds()
             fits = int((settings.time - elapsed) * self.done / elapsed)
             # A range that would take less than a twentieth of the time is not worth its last few samples.
             return min(end, self.done + fits) if fits >= 1 else self.done
@@ -250,35 +339,53 @@ class Job:
         fraction = standard_error_fraction(luminance, self.core_render.standard_error(), target)
         return fraction >= PIXELS_WITHIN_ERROR
 
-    def _run(self, end: int, progress: OnProgress | None) -> bool:
-        """Take the samples from `done` to `end`; whether they are complete."""
+    def _run(self, end: int, progress: OnProgress | None, keeper: Keeper | None) -> bool:
+        """Take the samples from `done` to `end`, with stops for checkpoints; whether they are complete."""
+        before, last, pausing = 0.0, 0.0, False
 
         def report(part: float) -> bool:
+            nonlocal last, pausing
+            last = part
             if self.interrupted:
                 return False
             try:
-                if progress is not None and progress(self._progress(end, part)) is False:
+                samples = self.done + (end - self.done) * min(1.0, before + part)
+                if progress is not None and progress(self.progress_at(samples)) is False:
                     self.stopped = True
-                return not self.stopped
+                pausing = keeper is not None and keeper.due()
+                return not (self.stopped or pausing)
             except KeyboardInterrupt:
                 self.interrupted = True
                 return False
 
-        try:
-            complete = bool(self.core_render.run(self.done, end, report))
-        except KeyboardInterrupt:
-            complete, self.interrupted = False, True
-        except MemoryError as error:
-            raise MachineError("There is not enough memory for this image.") from error
-        if complete:
-            report(1.0)  # a range may be too short to have been reported at all
-        elif not self.stopped:
+        while True:
+            pausing = False
+            try:
+                complete = bool(self.core_render.run(self.done, end, report))
+            except KeyboardInterrupt:
+                complete, self.interrupted = False, True
+            except MemoryError as error:
+                raise MachineError("There is not enough memory for this image.") from error
+            if complete:
+                before = 0.0
+                report(1.0)  # a range may be too short to have been reported at all
+                return True
+            if not pausing or self.stopped or self.interrupted:
+                break
+            assert keeper is not None
+            keeper.keep(self)
+            before += last
+        if not self.stopped:
             self.interrupted = True
-        return complete
+        return False
 
-    def _progress(self, end: int, part: float) -> Progress:
-        seconds = clock.monotonic() - self._began
-        samples = self.done + (end - self.done) * part
+    def _seconds(self) -> float:
+        """Time spent, that before a checkpoint included."""
+        return self._spent + clock.monotonic() - self._began
+
+    def progress_at(self, samples: float) -> Progress:
+        """How far the work is with so many samples of a pixel, in the mean."""
+        seconds = self._seconds()
         rate = samples * self.width * self.height / max(seconds, 1e-9) / 1e6
         settings = self.settings
         parts = []
@@ -302,7 +409,7 @@ class Job:
         held = np.asarray(render.samples())
         if "samples" in self.settings.layers:
             layers["samples"] = held[..., None]
-        seconds = clock.monotonic() - self._began
+        seconds = self._seconds()
         statistics = dict(render.statistics())
         statistics |= {
             "wall_seconds": seconds,
@@ -339,29 +446,36 @@ class Job:
 
     def _header(self, most: int, statistics: dict[str, Any]) -> dict[str, Any]:
         """How the image was made, with nothing in it that changes from run to run of the same image."""
-        import illuminant
-
-        camera = self.scene.description["camera"]
-        return {
-            "version": illuminant.__version__,
-            "scene": self.source,
-            "scene_hash": self.scene.hash(),
-            "size": list(camera["size"]),
-            **({"crop": list(camera["crop"])} if camera.get("crop") else {}),
+        return stated(self.scene, self.source, self.settings) | {
             # Where the work was cut off within a range, some pixels hold more than all do.
             "samples": self.done if most <= self.done else [self.done, most],
-            **self.settings.to_header(),
             "dropped": int(statistics.get("dropped", 0)),
         }
 
 
-def _scene(scene: Scene | str | os.PathLike[str]) -> tuple[Scene, str]:
+def stated(scene: Scene, source: str, settings: Settings) -> dict[str, Any]:
+    """What the header of an image says of how it is made, as far as it is known before the work."""
+    import illuminant
+
+    camera = scene.description["camera"]
+    return {
+        "version": illuminant.__version__,
+        "scene": source,
+        "scene_hash": scene.hash(),
+        "size": list(camera["size"]),
+        **({"crop": list(camera["crop"])} if camera.get("crop") else {}),
+        "samples": settings.samples,
+        **settings.to_header(),
+    }
+
+
+def _scene(scene: Scene | str | os.PathLike[str], allow_outside: bool) -> tuple[Scene, str]:
     """The scene, and the path that names it in a header."""
     from illuminant.scene import Scene
 
     if isinstance(scene, Scene):
         return scene, scene.path or ""
-    return Scene.load(scene), os.fspath(scene)
+    return Scene.load(scene, allow_outside=allow_outside), os.fspath(scene)
 
 
 def _pixels(scene: Scene) -> tuple[int, int]:

@@ -8,12 +8,33 @@ Example:
 from __future__ import annotations
 
 import os
+import re
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 
-from illuminant.errors import MachineError
+from illuminant.errors import MachineError, UsageError
 
-__all__ = ["check_file", "cores", "memory", "memory_available", "peak_memory", "size"]
+__all__ = [
+    "amount",
+    "check_file",
+    "cores",
+    "limited_to",
+    "memory",
+    "memory_available",
+    "peak_memory",
+    "refuse",
+    "resident",
+    "size",
+]
+
+_limit: ContextVar[int | None] = ContextVar("memory limit", default=None)
+"""Bytes that this process shall not exceed in all."""
+
+_UNITS = {"": 1, "B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "TB": 10**12}
+_UNITS |= {"K": 2**10, "M": 2**20, "G": 2**30, "KIB": 2**10, "MIB": 2**20, "GIB": 2**30, "TIB": 2**40}
 
 
 def cores() -> int:
@@ -62,12 +83,106 @@ def memory() -> int | None:
 
 
 def memory_available() -> int | None:
-    """Bytes of memory that can still be had without swapping; None where that cannot be known."""
-    known = [amount for amount in (_meminfo("MemAvailable"), _address_space()) if amount is not None]
+    """Bytes of memory that can still be had without swapping; None where that cannot be known.
+
+    Within `limited_to` no more than what is left of that limit.
+    """
+    known = [free for free in (_free(), _left()) if free is not None]
+    return min(known) if known else None
+
+
+def _free() -> int | None:
+    known = [one for one in (_meminfo("MemAvailable"), _address_space()) if one is not None]
     limit, used = _group("memory.max"), _group("memory.current")
     if limit is not None and used is not None:
         known.append(max(0, limit - used))
     return min(known) if known else None
+
+
+def _left() -> int | None:
+    """What is left of the limit that was set; None where none was."""
+    limit = _limit.get()
+    return None if limit is None else max(0, limit - resident())
+
+
+def resident() -> int:
+    """Bytes of memory that this process holds now (resident set)."""
+    try:
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+    except OSError:
+        return peak_memory()
+    import resource
+
+    return pages * resource.getpagesize()
+
+
+@contextmanager
+def limited_to(limit: int | str | None) -> Iterator[None]:
+    """Count only so much memory as free as keeps this process below a limit.
+
+    Args:
+        limit: bytes, or text such as "4GB"; None sets none (one that is set already stays).
+
+    Raises:
+        UsageError: it is no amount of memory.
+
+    Example:
+        >>> with limited_to("1TB"), limited_to("10MB"):      # this process has more already
+        ...     memory_available()
+        0
+    """
+    if limit is None:
+        yield
+        return
+    known = _limit.get()
+    wanted = amount(limit)
+    token = _limit.set(wanted if known is None else min(known, wanted))
+    try:
+        yield
+    finally:
+        _limit.reset(token)
+
+
+def amount(limit: int | str) -> int:
+    """An amount of memory as it is written for `--memory-limit`, in bytes.
+
+    Raises:
+        UsageError: it is none, or less than 1 MB.
+
+    Example:
+        >>> amount("4GB"), amount("1.5 GiB"), amount("500m"), amount(10**9)
+        (4000000000, 1610612736, 524288000, 1000000000)
+    """
+    match = re.fullmatch(r"([0-9]{1,18}(?:\.[0-9]{1,9})?)\s*([A-Za-z]{0,3})", str(limit).strip())
+    unit = match and _UNITS.get(match[2].upper())
+    count = int(float(match[1]) * unit) if match and unit else 0
+    if not 10**6 <= count < 2**63:
+        raise UsageError(f"--memory-limit {limit}: expected an amount of memory, such as 4GB or 500MB.")
+    return count
+
+
+def refuse(what: str, needed: int, advice: str = "") -> None:
+    """Refuse what does not fit into the memory that may be used.
+
+    Args:
+        what: subject of the sentence.
+        needed: bytes that it takes beside what this process holds.
+        advice: what to do about it.
+
+    Raises:
+        MachineError: one sentence with both amounts.
+    """
+    free, left = memory_available(), _left()
+    if free is None or needed <= free:
+        return
+    end = f": {advice}." if advice else "."
+    if left is not None and left <= free:
+        held, limit = resident(), _limit.get() or 0
+        raise MachineError(
+            f"{what} needs about {size(needed)} of memory beside the {size(held)} in use, and --memory-limit is "
+            f"{size(limit)}{end}"
+        )
+    raise MachineError(f"{what} needs about {size(needed)} of memory, and {size(free)} are free{end}")
 
 
 def peak_memory() -> int:
@@ -88,9 +203,7 @@ def check_file(path: str | os.PathLike[str], needed: int) -> None:
     Raises:
         MachineError: one sentence with both amounts.
     """
-    free = memory_available()
-    if free is not None and needed > free:
-        raise MachineError(f"{path} needs about {size(needed)} of memory, and {size(free)} are free.")
+    refuse(os.fspath(path), needed)
 
 
 def size(count: float) -> str:

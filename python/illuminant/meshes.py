@@ -20,18 +20,20 @@ from __future__ import annotations
 import gzip
 import io
 import os
+import re
 import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from illuminant import ply
-from illuminant.errors import DataError
+from illuminant import gltf, machine, ply, sources
+from illuminant.errors import DataError, MachineError
 from illuminant.shapes import Mesh
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
 
-__all__ = ["FORMATS", "MAX_BYTES", "format_of", "read"]
+__all__ = ["FORMATS", "MAX_BYTES", "MOST_FACES", "MOST_VERTICES", "format_of", "read"]
 
 FORMATS = ("obj", "ply", "stl", "glb", "gltf")
 """The mesh formats that are read."""
@@ -39,7 +41,17 @@ FORMATS = ("obj", "ply", "stl", "glb", "gltf")
 MAX_BYTES = 4_000_000_000
 """The largest mesh file, after decompression."""
 
-PIECE = 1 << 20
+MOST_VERTICES = 100_000_000
+"""Vertices of a mesh at most."""
+
+MOST_FACES = 100_000_000
+"""Triangles of a mesh at most."""
+
+BYTES_A_BYTE, BYTES_A_LETTER = 17, 12
+"""Memory that a byte of a file takes while it is read: of numbers in binary, and in text."""
+
+BYTES_A_VERTEX, BYTES_A_FACE = 130, 50
+"""Memory that they take while parts are put together."""
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
@@ -58,12 +70,15 @@ def format_of(path: str | os.PathLike[str]) -> str:
     return suffix
 
 
-def read(path: str | os.PathLike[str], zero_area: str = "error") -> Mesh:
+def read(
+    path: str | os.PathLike[str], zero_area: str = "error", *, within: str | os.PathLike[str] | None = None
+) -> Mesh:
     """One mesh of all that is in a file, in the file's own unit and axes.
 
     Args:
         path: a file in one of `FORMATS`, or one of these compressed by gzip.
         zero_area: "error" refuses faces without area, "remove" leaves them out.
+        within: folder in which the files of buffers that a glTF file names must lie; None is anywhere.
 
     Returns:
         The mesh, checked; it has normals or texture coordinates when every part of the file has them.
@@ -74,10 +89,12 @@ def read(path: str | os.PathLike[str], zero_area: str = "error") -> Mesh:
     path = Path(path)
     kind = format_of(path)
     try:
-        parts = _parts(_bytes(path), kind, path.parent)
+        parts = _parts(_bytes(path), kind, path, within)
         mesh = _joined(parts)
     except DataError as error:
         raise DataError(error.message, str(path)) from None
+    except MachineError:
+        raise
     except MemoryError:
         raise DataError("is too large for the memory of this machine", str(path)) from None
     except Exception as error:  # whatever a damaged file makes of the reader
@@ -93,51 +110,107 @@ def read(path: str | os.PathLike[str], zero_area: str = "error") -> Mesh:
 
 def _bytes(path: Path) -> bytes:
     try:
-        data = path.read_bytes()
+        data = sources.read(path, MAX_BYTES)
         if path.name.lower().endswith(".gz"):
             with gzip.GzipFile(fileobj=io.BytesIO(data)) as stream:
-                # In pieces: one read would ask for the memory of the largest file at once.
-                pieces, size = [], 0
-                while size <= MAX_BYTES and (piece := stream.read(PIECE)):
-                    pieces.append(piece)
-                    size += len(piece)
-                data = b"".join(pieces)
-    except FileNotFoundError:
-        raise DataError("there is no such file") from None
+                data = sources.drained(stream, MAX_BYTES + 1)
+    except SourceError as error:
+        raise DataError(error.message) from None
     except (EOFError, gzip.BadGzipFile, zlib.error) as error:
         raise DataError(f"is not compressed by gzip, or is damaged ({_clause(error)})") from None
-    except OSError as error:
-        raise DataError(f"cannot be read ({(error.strerror or 'unknown reason').lower()})") from None
     if len(data) > MAX_BYTES:
-        raise DataError(f"is larger than {MAX_BYTES / 1e9:g} GB")
+        raise DataError(f"is larger than {sources.amount(MAX_BYTES)}")
     if not data.strip():
         raise DataError("is an empty file")
     return data
 
 
-def _parts(data: bytes, kind: str, folder: Path) -> list[Mesh]:
+def _parts(data: bytes, kind: str, path: Path, within: str | os.PathLike[str] | None) -> list[Mesh]:
     """The meshes in a file, each under its transform."""
-    if kind == "ply" and (plain := ply.read(data)) is not None:
-        return [plain if plain.normals is None else _with_unit_normals(plain)]
-    return _parts_by_trimesh(data, kind, folder)
+    binary = kind in ("glb", "gltf") or b"\0" in data[:65536]
+    machine.check_file(path, len(data) * (BYTES_A_BYTE if binary else BYTES_A_LETTER))
+    if kind == "ply":
+        _check_ply(data)
+        if (plain := ply.read(data)) is not None:
+            _check_count(len(plain.positions), len(plain.indices))
+            return [plain if plain.normals is None else _with_unit_normals(plain)]
+    if kind in ("glb", "gltf"):
+        data = gltf.stripped(data, kind, MOST_VERTICES, MOST_FACES)
+    return _parts_by_trimesh(data, kind, path, within)
 
 
-def _parts_by_trimesh(data: bytes, kind: str, folder: Path) -> list[Mesh]:
+def _check_count(vertices: int, faces: int) -> None:
+    """Refuse more than is possible."""
+    for count, most, what in ((vertices, MOST_VERTICES, "vertices"), (faces, MOST_FACES, "faces")):
+        if count > most:
+            raise DataError(f"has {count:,} {what}; at most {most:,} can be used")
+
+
+def _check_ply(data: bytes) -> None:
+    """Refuse a header that states more elements than the file has bytes: trimesh believes it."""
+    end = data.find(b"end_header", 0, ply.MAX_HEADER)
+    if end < 0:
+        raise ValueError("its header has no end, or is longer than 64 kB")
+    for name, count in re.findall(rb"^element[ \t]+(\S+)[ \t]+([0-9]+)", data[:end], re.MULTILINE):
+        if len(count) > 12 or int(count) > len(data):
+            kind = name.decode("latin-1")[:40]
+            raise DataError(
+                f'states {int(count[:30]):,} elements "{kind}", and has {len(data):,} bytes in all'
+            )
+
+
+def _parts_by_trimesh(
+    data: bytes, kind: str, path: Path, within: str | os.PathLike[str] | None = None
+) -> list[Mesh]:
     import logging
 
     import numpy as np
     import trimesh
-    from trimesh.resolvers import FilePathResolver
+    from trimesh.resolvers import Resolver
+
+    class Beside(Resolver):  # type: ignore[misc]
+        """The files of buffers that a glTF file names."""
+
+        def __init__(self) -> None:
+            """Knows the folder already."""
+
+        def get(self, key: str) -> bytes:
+            """The bytes of one."""
+            file = path.parent / key
+            try:
+                return sources.read(
+                    sources.located(file.absolute(), within or ".", within is None), MAX_BYTES
+                )
+            except SourceError as error:
+                raise DataError(f"names a file of its own: {key}: {error.message}") from None
+
+        def write(self, name: str, data: bytes) -> None:
+            """Nothing is written."""
+            raise NotImplementedError
+
+        def namespaced(self, namespace: str) -> Beside:
+            """There is one folder."""
+            return self
+
+        def keys(self) -> list[str]:
+            """No file is offered."""
+            return []
 
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)
     options: dict[str, Any] = {"process": False, "maintain_order": False}
     if kind == "obj":
         options["skip_materials"] = True
     if kind == "gltf":
-        options["resolver"] = FilePathResolver(str(folder))
+        options["resolver"] = Beside()
     with np.errstate(all="ignore"):
         scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, **options)
         parts = []
+        placed = [scene.geometry[scene.graph[node][1]] for node in scene.graph.nodes_geometry]
+        placed = [geometry for geometry in placed if isinstance(geometry, trimesh.Trimesh)]
+        vertices, faces = (sum(len(getattr(one, part)) for one in placed) for part in ("vertices", "faces"))
+        # A few words can place one mesh many times.
+        _check_count(vertices, faces)
+        machine.check_file(path, BYTES_A_VERTEX * vertices + BYTES_A_FACE * faces)
         for node in scene.graph.nodes_geometry:
             matrix, name = scene.graph[node]
             geometry = scene.geometry[name]
@@ -153,8 +226,6 @@ def _part(geometry: Any, matrix: np.ndarray) -> Mesh:
     normals = geometry._cache.cache.get("vertex_normals")  # only those of the file: asking would make them
     uvs = getattr(geometry.visual, "uv", None)
     positions = np.array(geometry.vertices, dtype=np.float64)
-    if positions.ndim != 2 or positions.shape[1] != 3:
-        raise DataError("has vertices that are not three numbers each")
     mesh = Mesh(
         positions,
         np.array(geometry.faces, dtype=np.int64).reshape(-1, 3),

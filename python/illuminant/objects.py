@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-from illuminant import meshes, placement, shapes
+from illuminant import meshes, placement, shapes, sources
 from illuminant.errors import DataError, suggestion
 from illuminant.report import Path, Report, read_table
 from illuminant.schema import MeshTable, Move, Object
@@ -51,16 +51,25 @@ class ObjectResolver:
         length_unit: unit of all lengths in the scene.
         up: axis of the world that is up.
         directory: folder that file names are relative to.
+        files: meshes that were read already, to be shared by scenes of one file; it grows.
+        allow_outside: whether files may lie outside that folder.
     """
 
     def __init__(
-        self, report: Report, length_unit: str = "m", up: str = "y", directory: str | os.PathLike[str] = "."
+        self,
+        report: Report,
+        length_unit: str = "m",
+        up: str = "y",
+        directory: str | os.PathLike[str] = ".",
+        files: dict[tuple[Any, ...], shapes.Mesh | DataError] | None = None,
+        *,
+        allow_outside: bool = False,
     ) -> None:
         self.report = report
         self.unit_m = placement.METRES[length_unit]
         self.up = up
-        self.directory = FilePath(directory)
-        self._files: dict[tuple[Any, ...], shapes.Mesh | DataError] = {}
+        self.directory, self.allow_outside = FilePath(directory), allow_outside
+        self._files = {} if files is None else files
         self._shared: dict[tuple[int, bool | None, bool], tuple[shapes.Mesh, dict[str, np.ndarray]]] = {}
 
     def placed(self, name: str, raw: Any, materials: Mapping[str, Any]) -> tuple[Placed, str] | None:
@@ -165,6 +174,7 @@ class ObjectResolver:
             return self._arrays(self._mesh(table, place), table.smooth, mirrored)
         except DataError as error:
             kind = "missing-file" if error.message == "there is no such file" else "mesh"
+            kind = "outside" if sources.is_outside(error) else kind
             self.report.add_data_error(place, error, kind)
             return None
 
@@ -219,11 +229,13 @@ class ObjectResolver:
     def _mesh_file(self, given: MeshTable) -> shapes.Mesh:
         if given.positions is not None or given.faces is not None:
             raise DataError("must have file, or positions and faces, not both")
-        file = self.directory / str(given.file)
+        file = sources.located(str(given.file), self.directory, self.allow_outside)
         key = (str(file), given.unit, given.up, given.zero_area)
         if key not in self._files:
             try:
-                mesh = meshes.read(file, given.zero_area)
+                mesh = meshes.read(
+                    file, given.zero_area, within=None if self.allow_outside else self.directory
+                )
                 standard = meshes.format_of(file) in ("glb", "gltf")
                 unit = given.unit or ("m" if standard else None)
                 self._files[key] = self._in_world(

@@ -97,12 +97,15 @@ def _permissions(path: Path) -> int:
         return 0o666 & ~mask
 
 
-def write(path: str | os.PathLike[str], encode: Callable[[Path], None]) -> None:
+def write(
+    path: str | os.PathLike[str], encode: Callable[[Path], None], temporary: Path | None = None
+) -> None:
     """Write a file atomically.
 
     Args:
         path: the file to make or to replace.
         encode: writes everything to the path it is given and raises when it cannot; called once.
+        temporary: where it is written first; default a new name in the same folder.
 
     Raises:
         ImageError: the path cannot be an output.
@@ -112,22 +115,29 @@ def write(path: str | os.PathLike[str], encode: Callable[[Path], None]) -> None:
     # A link is kept, and what it points to is replaced.
     target = path.resolve() if path.is_symlink() else path
     try:
-        temporary = _temporary(target)
+        temporary = temporary or _temporary(target)
         try:
             encode(temporary)
             os.chmod(temporary, _permissions(target))
-            handle = os.open(temporary, os.O_RDONLY)
-            try:
-                os.fsync(handle)
-            finally:
-                os.close(handle)
+            _flush(temporary)
             os.replace(temporary, target)
+            # The new name, too, is on the disk only now: a power cut would bring back the old file, or none.
+            _flush(target.parent)
         finally:
             _remove(temporary)
     except Error:
         raise
     except OSError as error:
         raise failure(path, error) from error
+
+
+def _flush(path: Path) -> None:
+    """Wait until a file or a folder is on the disk."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
 
 
 def write_bytes(path: str | os.PathLike[str], content: bytes) -> None:

@@ -25,9 +25,9 @@ import math
 import os
 import re
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from illuminant import sources
 from illuminant.errors import DataError
 
 if TYPE_CHECKING:
@@ -88,14 +88,9 @@ def read(path: str | os.PathLike[str]) -> Photometry:
     """
     name = os.fspath(path)
     try:
-        size = Path(path).stat().st_size
-        if size > MOST_BYTES:
-            raise DataError(f"has {size} bytes; a photometric file has at most {MOST_BYTES}", name)
-        data = Path(path).read_bytes()
-    except FileNotFoundError:
-        raise DataError("there is no such file", name) from None
-    except OSError as error:
-        raise DataError(f"cannot be read ({error.strerror})", name) from error
+        data = sources.read(path, MOST_BYTES)
+    except sources.SourceError as error:
+        raise DataError(error.message, name) from None
     return parse(data, name)
 
 

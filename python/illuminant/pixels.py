@@ -17,13 +17,24 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from illuminant import machine, sources
 from illuminant.errors import ImageError
 from illuminant.schema import MAX_PIXELS
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
 
-__all__ = ["decode_srgb", "read"]
+__all__ = ["MAX_BYTES", "MOST_CHANNELS", "decode_srgb", "read"]
+
+MAX_BYTES = 4_000_000_000
+"""The largest file of an image."""
+
+MOST_CHANNELS = 64
+"""Channels of an image at most."""
+
+BYTES_A_PIXEL = 12
+"""Memory that a pixel takes beside the channels as they are read."""
 
 
 def read(path: str | os.PathLike[str]) -> tuple[np.ndarray, bool]:
@@ -39,17 +50,22 @@ def read(path: str | os.PathLike[str]) -> tuple[np.ndarray, bool]:
     import OpenImageIO as oiio
 
     path = Path(path)
-    if not path.is_file():
-        raise ImageError(f"{path}: there is no such file")
+    try:
+        sources.check(path, MAX_BYTES)
+    except SourceError as error:
+        raise ImageError(f"{path}: {error.message}") from None
     source = oiio.ImageInput.open(str(path))
     if source is None:
         raise ImageError(f"{path}: cannot be read as an image ({_clause(oiio.geterror)})")
     try:
         spec = source.spec()
-        if spec.width * spec.height > MAX_PIXELS:
+        if not 0 < spec.width * spec.height <= MAX_PIXELS or spec.depth > 1:
             raise ImageError(
                 f"{path}: has {spec.width} × {spec.height} pixels; at most {MAX_PIXELS} can be used"
             )
+        if spec.nchannels > MOST_CHANNELS:
+            raise ImageError(f"{path}: has {spec.nchannels} channels; at most {MOST_CHANNELS} are read")
+        machine.check_file(path, spec.width * spec.height * (4 * spec.nchannels + BYTES_A_PIXEL))
         pixels = source.read_image(0, 0, 0, spec.nchannels, "float")
         if pixels is None:
             raise ImageError(f"{path}: is damaged ({_clause(source.geterror)})")

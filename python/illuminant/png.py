@@ -15,14 +15,14 @@ import struct
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from illuminant import machine
+from illuminant import machine, sources
 from illuminant.core import core
 from illuminant.display import displays
 from illuminant.display.displays import Display
-from illuminant.errors import DataError, ImageError, MachineError, UsageError
+from illuminant.errors import DataError, ImageError, UsageError
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -52,6 +52,9 @@ _OTHER_CICP: dict[tuple[int, ...], str] = {
 
 LARGEST = 1 << 28
 """Pixels of the largest image that is read."""
+
+MOST_BYTES = 4_000_000_000
+"""The largest file."""
 
 LARGEST_PROFILE = 1 << 24
 """Bytes of the largest ICC profile that is read from a PNG."""
@@ -222,12 +225,9 @@ def read_header(path: str | os.PathLike[str]) -> Header:
 
 def _content(path: str | os.PathLike[str]) -> bytes:
     try:
-        machine.check_file(path, Path(path).stat().st_size)
-        return Path(path).read_bytes()
-    except MachineError:
-        raise
-    except OSError as error:
-        raise ImageError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
+        return sources.read(path, MOST_BYTES)
+    except SourceError as error:
+        raise ImageError(f"{path} cannot be read: {error.clause}.") from None
 
 
 def _header(content: bytes, path: str | os.PathLike[str]) -> Header:

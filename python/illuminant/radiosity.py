@@ -17,16 +17,16 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
-import zipfile
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
-from illuminant import output
+from illuminant import archives, machine, output, sources
 from illuminant.core import core, embree
-from illuminant.errors import DataError, UsageError, suggestion
+from illuminant.errors import DataError, MachineError, UsageError, suggestion
 from illuminant.job import Job, OnProgress, held
 from illuminant.rendering import RenderInterrupted
 from illuminant.settings import SOLVED, Settings, resolve
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 __all__ = ["FORMAT", "Mesh", "Solution", "solve"]
 
 FORMAT = "illuminant solution 1"
+MOST_BYTES = 16_000_000_000
+"""The largest file of a solution."""
+
 MOST_LAMPS = 32
 """With more lamps than this their light is not kept apart."""
 
@@ -133,12 +136,16 @@ class Solution:
             scene = scene.replace(materials=materials)
         return self.of(scene)
 
-    def of(self, scene: Scene) -> Solution:
+    def of(self, scene: Scene, cancel: Any = None) -> Solution:
         """The solution for a scene that differs in spectra of lamps, materials, the camera, or where objects are.
 
         Only what changed is found again: nothing for lamps; the equations for paints; the form factors that see an
         object which moved (Baum et al. 1986). The number of rows of form factors that this took is
         `report["rows_again"]`.
+
+        Args:
+            scene: as it is now.
+            cancel: a `Cancel` of the core, which ends the work from another thread with the core's `Cancelled`.
 
         Raises:
             UsageError: the scene differs in more than that; solve it anew.
@@ -158,13 +165,13 @@ class Solution:
         moved = _moved(self.scene, scene)
         rows = 0
         if moved:
-            found, rows = found.moved(core_scene, settings, moved)
+            found, rows = found.moved(core_scene, settings, moved, cancel)
         if _paints(self.scene) != _paints(scene):
             if self.settings.technique == "hybrid" and _mirrors(self.scene) != _mirrors(scene):
                 raise UsageError(
                     "What mirrors or lets light through has changed, and with it form factors: solve anew."
                 )
-            found = found.repainted(core_scene, settings)
+            found = found.repainted(core_scene, settings, cancel)
         result = Solution(scene, self.settings, found, fitted_to=self._fitted_to)
         result.report["rows_again"] = rows
         return result
@@ -279,6 +286,12 @@ class Solution:
             ImageError: the path cannot be an output.
             MachineError: the disk is full or fails.
         """
+        output.write_bytes(path, self.to_bytes())
+
+    def to_bytes(self) -> bytes:
+        """The solution as the bytes of such a file, for `from_bytes`."""
+        import io
+
         import numpy as np
 
         self._check_irradiance()
@@ -296,11 +309,14 @@ class Solution:
             **parts,
         }
 
-        def encode(temporary: os.PathLike[str]) -> None:
-            with open(temporary, "wb") as stream:
-                np.savez(stream, allow_pickle=False, **arrays)
+        stream = io.BytesIO()
+        np.savez(stream, allow_pickle=False, **arrays)
+        return stream.getvalue()
 
-        output.write(path, encode)
+    @property
+    def core_solution(self) -> Any:
+        """The solution as the core has it, for `Job`."""
+        return self._core
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Solution:
@@ -309,15 +325,28 @@ class Solution:
         Raises:
             DataError: the file cannot be read, or is no solution.
         """
+        name = os.fspath(path)
+        try:
+            with sources.opened(name, MOST_BYTES) as stream:
+                return cls._read(stream, name)
+        except SourceError as error:
+            raise DataError(f"{name} cannot be read: {error.clause}.") from None
+
+    @classmethod
+    def from_bytes(cls, content: bytes, name: str = "the solution") -> Solution:
+        """As `load`, of the bytes of a file; `name` is what errors call it."""
+        import io
+
+        return cls._read(io.BytesIO(content), name)
+
+    @classmethod
+    def _read(cls, stream: IO[bytes], name: str) -> Solution:
         import numpy as np
 
         from illuminant.scene import Scene
 
-        name = os.fspath(path)
         try:
-            # NumPy leaves a file that it opened itself open when the file is damaged.
-            with open(name, "rb") as stream, np.load(stream, allow_pickle=False) as data:
-                arrays = {key: data[key] for key in data.files}
+            arrays = archives.read(stream, name)
             header = json.loads(arrays.pop("header").tobytes())
             if header["format"] != FORMAT:
                 raise DataError(
@@ -334,11 +363,9 @@ class Solution:
             sound &= all(np.isfinite(arrays[key]).all() and (arrays[key] >= 0).all() for key in _NUMBERS)
             if not sound:
                 raise ValueError("numbers that cannot be")
-        except DataError:
+        except (DataError, MachineError, SourceError):
             raise
-        except OSError as error:
-            raise DataError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}.") from error
-        except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile) as error:
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             raise DataError(f"{name} is no solution of illuminant.") from error
         embree()
         try:
@@ -424,11 +451,20 @@ _OF_SOLUTION = (
 """The options by which a solution is made."""
 
 
-def solve(scene: Scene | str | os.PathLike[str], **options: Any) -> Solution:
-    """Solve for the light between the surfaces of a scene.
+def solve(
+    scene: Scene | str | os.PathLike[str],
+    *,
+    cancel: Any = None,
+    allow_outside: bool = False,
+    memory_limit: int | str | None = None,
+    **options: Any,
+) -> Solution:
+    """Solve for the light between the surfaces of a scene; Ctrl-C ends it.
 
     Args:
         scene: a `Scene`, or the path of a scene file.
+        cancel: a `Cancel` of the core, which ends the work from another thread with the core's `Cancelled`.
+        allow_outside, memory_limit: as for `illuminant.render`.
         options: as `illuminant.render` has them: `elements`, `patches`, `adaptive`, `form_factors`, `solver`,
             `light_samples`, `sampling`, `illumination`, `technique` (`radiosity`), `threads`.
 
@@ -443,7 +479,8 @@ def solve(scene: Scene | str | os.PathLike[str], **options: Any) -> Solution:
     from illuminant.scene import Scene
 
     if not isinstance(scene, Scene):
-        scene = Scene.load(scene)
+        with machine.limited_to(memory_limit):
+            scene = Scene.load(scene, allow_outside=allow_outside)
     defaults = dict(scene.render_defaults)
     if defaults.get("technique") not in SOLVED:
         defaults["technique"] = SOLVED[0]
@@ -452,7 +489,12 @@ def solve(scene: Scene | str | os.PathLike[str], **options: Any) -> Solution:
         raise UsageError(
             f"technique {settings.technique}: nothing is solved for; expected {' or '.join(SOLVED)}."
         )
-    job = Job(scene, **{field.name: getattr(settings, field.name) for field in dataclasses.fields(Settings)})
+
+    def solve_by(scene: Scene, settings: Settings) -> Any:
+        return core().Solution(scene.core(settings.threads), settings.to_core(), cancel)
+
+    chosen = {field.name: getattr(settings, field.name) for field in dataclasses.fields(Settings)}
+    job = Job(scene, solve_by=None if cancel is None else solve_by, memory_limit=memory_limit, **chosen)
     return Solution(scene, settings, job.core_render.solution())
 
 

@@ -151,6 +151,10 @@ def scene_file_reference() -> str:
         "effects for the eye, not media: light between surfaces does not know of them.\n",
         *(_kind("atmosphere", name, model) for name, model in schema.KINDS_OF_ATMOSPHERE.items()),
         _section("Medium", schema.Medium).replace("## Medium", "## Medium\n\n`[medium]`", 1),
+        _section("Animation", schema.AnimationTable).replace(
+            "## Animation", "## Animation\n\n`[animation]`", 1
+        ),
+        _table("`keys`", schema.Keys),
         QUANTITY,
         _quantities(),
     ]
@@ -211,6 +215,8 @@ def _type(field: Any, name: str) -> str:
         "_axis_form": "`x`, `y`, `z` or 3 numbers",
         "_scale_form": "number or 3 numbers",
         "_rotate_form": "table or list of tables",
+        "_rate_form": "number or text",
+        "list[typing.Any]": "list of values",
     }.items():
         if form in text or form in repr(field.metadata):
             return words
@@ -220,7 +226,8 @@ def _type(field: Any, name: str) -> str:
     if literals:
         return ", ".join(f'`"{word}"`' for word in literals)
     if "list[" in text:
-        return _shape(tomllib.loads(f"x = {field.examples[0]}")["x"], "MinLen" in repr(field.metadata) + text)
+        lengths = (repr(field.metadata) + text).replace("MinLen(min_length=1)", "")
+        return _shape(tomllib.loads(f"x = {field.examples[0]}")["x"], "MinLen" in lengths)
     for kind, words in {
         "str": "text",
         "bool": "true or false",

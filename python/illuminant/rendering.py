@@ -12,13 +12,15 @@ Example:
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from illuminant.checkpoint import Keeper, resumed
 from illuminant.errors import Interrupted, UsageError
 from illuminant.job import MOST_SAMPLES, Job, OnProgress, held
-from illuminant.settings import SCANLINE
+from illuminant.settings import SCANLINE, duration
 
 if TYPE_CHECKING:
     from illuminant.image import Image
@@ -41,8 +43,6 @@ class RenderInterrupted(Interrupted):
 
 def _log_warnings(job: Job) -> None:
     """Say in the log `illuminant` what does not suit the scene; Python shows it on stderr if nobody listens."""
-    import logging
-
     for text in job.warnings():
         logging.getLogger("illuminant").warning(text)
 
@@ -113,6 +113,11 @@ def render(
     mechanisms: str | Sequence[str] | None = None,
     frustum: int | None = None,
     cube: int | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    every: str | float = 60.0,
+    resume: bool = False,
+    allow_outside: bool = False,
+    memory_limit: int | str | None = None,
     progress: OnProgress | None = None,
     on_partial: Callable[[Image], object] | None = None,
 ) -> Image:
@@ -171,6 +176,12 @@ def render(
         frustum: rays along an edge of the frustum in which `hybrid` samples what rough surfaces mirror; default one
             ray, drawn.
         cube: cells along an edge of the cubes into which each patch of `specular-radiosity` sends light; default 32.
+        checkpoint: file from which the render can go on after a crash; one is also written at the end.
+        every: time between checkpoints: seconds, or `"60s"`, `"5m"`. One that cannot be written goes to the log.
+        resume: go on from that file, if there is one, to the bits of a render that was never cut off. More `samples`
+            than before may be asked for.
+        allow_outside: let a scene file name files outside its folder: only for scenes that you trust. Default False.
+        memory_limit: refuse the work if it would take more memory than this: bytes, or `"4GB"`; default what is free.
         progress: called about ten times a second with a `Progress`; returning False ends the render with what
             is done.
         on_partial: called after each range with the image so far.
@@ -180,7 +191,8 @@ def render(
 
     Raises:
         SceneError: the scene has mistakes; all of them are in `problems`.
-        UsageError: an option cannot be, or does not go with the scene.
+        UsageError: an option cannot be, or does not go with the scene; or the checkpoint is of another render.
+        DataError: the checkpoint is damaged.
         MachineError: there is not enough memory, or no Embree.
         RenderInterrupted: Ctrl-C; its attribute `image` holds what was done.
 
@@ -189,8 +201,16 @@ def render(
         >>> image.layers["depth"].shape                                                   # doctest: +SKIP
         (512, 512, 1)
     """
+    keeper = None
+    if checkpoint is not None:
+        keeper = Keeper(
+            checkpoint,
+            duration(every, "every"),
+            lambda error: logging.getLogger("illuminant").warning(str(error)),
+        )
     job = Job(
         scene,
+        checkpoint=None if checkpoint is None else resumed(checkpoint, resume=resume),
         technique=technique,
         illumination=illumination,
         sampling=sampling,
@@ -228,9 +248,11 @@ def render(
         mechanisms=mechanisms,
         frustum=frustum,
         cube=cube,
+        allow_outside=allow_outside,
+        memory_limit=memory_limit,
     )
     _log_warnings(job)
-    for _ in job.passes(progress):
+    for _ in job.passes(progress, keeper):
         if on_partial is not None:
             on_partial(job.image())
     image = job.image()

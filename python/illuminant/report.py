@@ -54,8 +54,10 @@ class Report:
             depth -= 1
         line = self.lines.get(path[:depth], 0)
         split = min(2, len(path)) if path and path[0] in NAMED_TABLES else min(1, max(len(path) - 1, 0))
-        if len(path) == 1 and path[0] in ("camera", "render", *NAMED_TABLES):
+        if len(path) == 1 and path[0] in ("camera", "render", "animation", *NAMED_TABLES):
             split = 1
+        if path[:2] == ("animation", "keys") and len(path) > 2:
+            split = 3
         table = ".".join(_bare(part) for part in path[:split])
         key = ""
         for part in path[split:]:
@@ -223,7 +225,8 @@ def _sentence(
         )
     if sort in ("too_short", "too_long"):
         wanted = context.get("min_length" if sort == "too_short" else "max_length")
-        return f"must have {wanted} entries, found {context.get('actual_length')}", "", "length"
+        entries = "at least 1 entry" if wanted == 1 else f"{wanted} entries"
+        return f"must have {entries}, found {context.get('actual_length')}", "", "length"
     if sort in _EXPECTED:
         return f"must be {_EXPECTED[sort]}, found {found(value)}", "", "type"
     if sort.endswith("_form"):

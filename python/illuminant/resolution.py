@@ -18,7 +18,18 @@ from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-from illuminant import environments, finishes, materials, panoramas, photometry_file, placement, spectra
+from illuminant import (
+    archives,
+    environments,
+    finishes,
+    machine,
+    materials,
+    panoramas,
+    photometry_file,
+    placement,
+    sources,
+    spectra,
+)
 from illuminant.coefficient_schema import ALL_MODELS, Coefficients
 from illuminant.core import core
 from illuminant.curves import Curves, curve_from_spectrum
@@ -36,6 +47,7 @@ from illuminant.schema import (
     Medium,
     Table,
 )
+from illuminant.sources import SourceError, is_outside
 from illuminant.spectra import Spectrum
 from illuminant.texture_schema import ColourImage, SlopeImage
 from illuminant.textures import Textures
@@ -44,6 +56,12 @@ if TYPE_CHECKING:
     import numpy as np
 
 __all__ = ["Material", "Resolver", "in_place", "indexed"]
+
+MOST_BYTES_OF_DENSITY = 4_000_000_000
+"""The largest file of the density of a medium."""
+
+BYTES_A_CELL = 32
+"""Memory that a cell of it takes while it is read, at 4 bytes a cell in the file."""
 
 NAMES_OF_SOURCES = {
     "emitter": "an emitter",
@@ -73,19 +91,29 @@ class Resolver:
         report: takes the mistakes.
         frame: the keys `length_unit`, `up`, `range_nm` and `spectra` of the scene.
         directory: folder that file names are relative to.
+        allow_outside: whether files may lie outside that folder.
     """
 
     def __init__(
-        self, report: Report, frame: Mapping[str, Any], directory: str | os.PathLike[str] = "."
+        self,
+        report: Report,
+        frame: Mapping[str, Any],
+        directory: str | os.PathLike[str] = ".",
+        *,
+        allow_outside: bool = False,
     ) -> None:
         self.report = report
         self.unit_m = placement.METRES[frame.get("length_unit", "m")]
         self.up: str = frame.get("up", "y")
         first, last = frame.get("range_nm", (380.0, 780.0))
-        self.directory = FilePath(directory)
-        self.curves = Curves(report, frame.get("spectra"), directory, (first, last))
+        self.directory, self.allow_outside = FilePath(directory), allow_outside
+        self.curves = Curves(
+            report, frame.get("spectra"), directory, (first, last), allow_outside=allow_outside
+        )
         self.images: dict[str, np.ndarray] = {}
-        self.textures = Textures(report, self.curves, directory, self.up, self.unit_m)
+        self.textures = Textures(
+            report, self.curves, directory, self.up, self.unit_m, allow_outside=allow_outside
+        )
 
     def all_images(self) -> dict[str, np.ndarray]:
         """The images of environments and of surfaces, by the names that the description has for them."""
@@ -436,11 +464,16 @@ class Resolver:
         if not isinstance(given, str):
             return None
         try:
-            return photometry_file.read(self.directory / given)
+            return photometry_file.read(self._file(given))
         except DataError as error:
             kind = "missing-file" if error.message == "there is no such file" else "photometry"
+            kind = "outside" if is_outside(error) else kind
             self.report.add_data_error((*path, "photometry"), error, kind)
             return None
+
+    def _file(self, name: str) -> FilePath:
+        """Where a file is that the scene names."""
+        return sources.located(name, self.directory, self.allow_outside)
 
     def _luminaire(
         self, table: Any, raw: dict[str, Any], bad: set[str], web: Photometry, path: Path
@@ -501,9 +534,11 @@ class Resolver:
             entry["image"] = name
             try:
                 self.images[name] = self._image(table.image, table.layout or "latlong")
+            except SourceError as error:
+                self.report.add_data_error((*path, "image"), error, error.kind)
             except ImageError as error:
-                is_file = not isinstance(table.image, str) or (self.directory / table.image).is_file()
-                self.report.add((*path, "image"), str(error), kind="image" if is_file else "missing-file")
+                missing = str(error).endswith(": there is no such file")
+                self.report.add((*path, "image"), str(error), kind="missing-file" if missing else "image")
         system = (
             self.curves.system(table.rgb_system, (*path, "rgb_system")) if "rgb_system" not in bad else None
         )
@@ -515,7 +550,7 @@ class Resolver:
 
     def _image(self, image: Any, layout: str) -> np.ndarray:
         if isinstance(image, str):
-            read = environments.read(self.directory / image)
+            read = environments.read(self._file(image))
             return environments.checked(panoramas.latitude_longitude(read, layout))
         if isinstance(image, (dict, list, bool, int, float)):
             raise ImageError(f"must be the name of a file, found {found(image)}")
@@ -585,24 +620,14 @@ class Resolver:
         import numpy as np
 
         if isinstance(given, str):
-            import warnings
-            from tokenize import TokenError
-            from zipfile import BadZipFile
-
-            file = FilePath(self.directory) / given
+            file = self._file(given)
+            size = sources.check(file, MOST_BYTES_OF_DENSITY)
+            machine.check_file(file, BYTES_A_CELL * size // 4)
             try:
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore")  # that a file of Python 2 is slow to read
-                    cells = np.load(file, allow_pickle=False)
-                if not isinstance(cells, np.ndarray):
-                    cells.close()
-                    raise ValueError("it is an archive")
-            except FileNotFoundError:
-                raise DataError("there is no such file", str(file)) from None
-            except (OSError, ValueError, EOFError, SyntaxError, TokenError, MemoryError, BadZipFile) as error:
-                # The header of a NumPy file is an expression of Python.
-                reason = " ".join(str(error).split())[:120] or "it does not fit into memory"
-                raise DataError(f"is no NumPy file of numbers ({reason})", str(file)) from error
+                with sources.opened(file, MOST_BYTES_OF_DENSITY) as stream:
+                    cells = archives.array(stream, size)
+            except (OSError, ValueError, EOFError) as error:
+                raise DataError(f"is no NumPy file of numbers ({error})", str(file)) from error
         else:
             try:
                 cells = np.asarray(given, dtype=np.float32)

@@ -32,7 +32,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from illuminant import sources
 from illuminant.errors import DataError, SceneError, suggestion
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -40,6 +42,9 @@ if TYPE_CHECKING:
 __all__ = ["Scene", "load"]
 
 FORMAT = "illuminant scene 1"
+
+MOST_BYTES = 16_000_000_000
+"""The largest file that `Scene.save` wrote."""
 
 
 class _Geometry:
@@ -95,8 +100,13 @@ class Scene:
     # --- making ------------------------------------------------------------------------------------------------
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Scene:
+    def load(cls, path: str | os.PathLike[str], *, allow_outside: bool = False) -> Scene:
         """Read a scene file (TOML), or a scene written by `save`.
+
+        Args:
+            path: of the file.
+            allow_outside: whether the files that it names may lie outside its folder: say so only of scenes that you
+                trust.
 
         Raises:
             SceneError: the file cannot be read or has mistakes; all of them are in `problems`.
@@ -104,15 +114,15 @@ class Scene:
         from illuminant import scene_file
 
         try:
-            with open(path, "rb") as stream:
+            with sources.opened(path, MOST_BYTES) as stream:
                 written = stream.read(4) == b"PK\x03\x04"
-                if written:
-                    return cls.from_bytes(b"PK\x03\x04" + stream.read())
+            if written:
+                return cls.from_bytes(sources.read(path, MOST_BYTES))
+        except SourceError:
+            pass  # the reader of scene files says what is wrong
         except DataError as error:
             raise SceneError(f"{os.fspath(path)}: {error.message}") from None
-        except OSError:
-            pass  # the reader of scene files says what is wrong
-        return scene_file.load(path)
+        return scene_file.load(path, allow_outside=allow_outside)
 
     @classmethod
     def build(
@@ -131,6 +141,7 @@ class Scene:
         up: str = "y",
         range_nm: Sequence[float] = (380.0, 780.0),
         directory: str | os.PathLike[str] = ".",
+        allow_outside: bool = True,
     ) -> Scene:
         """Make a scene in Python, without any file.
 
@@ -153,6 +164,8 @@ class Scene:
             up: axis of the world that is up: y, z.
             range_nm: first and last wavelength.
             directory: folder that file names are relative to.
+            allow_outside: whether files may lie outside that folder. They may, since tables come from the program
+                itself, which can read any file anyway; a service that passes on tables from others says False.
 
         Raises:
             SceneError: mistakes; all of them are in `problems`.
@@ -190,7 +203,9 @@ class Scene:
             "render": render,
         }
         return scene_file.resolve(
-            scene_file.plain({key: data[key] for key in data if data[key] is not None}), directory
+            scene_file.plain({key: data[key] for key in data if data[key] is not None}),
+            directory,
+            allow_outside=allow_outside,
         )
 
     def replace(
@@ -220,13 +235,13 @@ class Scene:
         from illuminant.resolution import Resolver, in_place, indexed
 
         report = Report()
-        resolver = Resolver(report, self.frame)
+        resolver = Resolver(report, self.frame, allow_outside=True)
         parts = in_place(self.description)
         frame = dict(self.frame)
         if camera is not None:
             camera = scene_file.plain(camera)
             if "field_of_view_deg" in camera:
-                metres = Resolver(report, self.frame | {"length_unit": "m"})
+                metres = Resolver(report, self.frame | {"length_unit": "m"}, allow_outside=True)
                 keys = {"field_of_view_deg": "field_of_view"}
                 given = {
                     keys.get(key, key): one
@@ -296,6 +311,20 @@ class Scene:
         result._geometry = self._geometry
         return result
 
+    def share_geometry(self, other: Scene) -> bool:
+        """Use the ray structure of another scene if all shapes stand alike in both, which changes no bit.
+
+        Returns:
+            Whether they do.
+        """
+        for scene in (self, other):
+            if not scene._geometry.digest:
+                scene._geometry.digest = _digest(scene.arrays, lambda name: not name.startswith("image:"))
+        alike = self._geometry.digest == other._geometry.digest
+        if alike and self._core is None:
+            self._geometry = other._geometry
+        return alike
+
     # --- plain data --------------------------------------------------------------------------------------------
 
     def hash(self) -> str:
@@ -338,16 +367,13 @@ class Scene:
             DataError: the bytes are not such a scene.
         """
         import io
-        import warnings
 
-        import numpy as np
+        from illuminant import archives
 
         try:
-            with warnings.catch_warnings(), np.load(io.BytesIO(data), allow_pickle=False) as archive:
-                warnings.simplefilter("ignore")  # that an array of Python 2 is slow to read
-                header = json.loads(archive["scene"].tobytes())
-                arrays = {name: archive[name] for name in archive.files if name != "scene"}
-            if header["format"] != FORMAT or not all(isinstance(one, np.ndarray) for one in arrays.values()):
+            arrays = archives.read(io.BytesIO(data))
+            header = json.loads(arrays.pop("scene").tobytes())
+            if header["format"] != FORMAT:
                 raise KeyError
             return cls(
                 header["description"],
@@ -358,7 +384,7 @@ class Scene:
                 path=header["path"],
                 warnings=header["warnings"],
             )
-        except Exception:  # whatever a damaged archive makes of its readers
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             raise DataError("is not a scene written by this version of illuminant") from None
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -449,13 +475,13 @@ _RESOLVED = ("shutter", "lens", "end")
 _OF_THE_LENS = ("focal_length_mm", "f_number", "focus_distance", "blades", "blades_turned")
 
 
-def load(path: str | os.PathLike[str]) -> Scene:
+def load(path: str | os.PathLike[str], *, allow_outside: bool = False) -> Scene:
     """Read a scene file; see `Scene.load`.
 
     Example:
         >>> scene = load("scenes/cornell.toml")                # doctest: +SKIP
     """
-    return Scene.load(path)
+    return Scene.load(path, allow_outside=allow_outside)
 
 
 def _canonical(value: Any) -> bytes:

@@ -16,6 +16,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from illuminant import sources
 from illuminant.core import core
 from illuminant.errors import Problem, SceneError
 from illuminant.objects import ObjectResolver, Placed
@@ -23,36 +24,40 @@ from illuminant.report import Report, found, read_table
 from illuminant.resolution import Resolver, indexed
 from illuminant.scene import Scene
 from illuminant.schema import Camera, Render, SceneFile
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
 
-__all__ = ["MAX_BYTES", "check", "load", "parse", "plain", "resolve", "schema_text", "shines"]
+__all__ = ["MAX_BYTES", "check", "load", "parse", "plain", "resolve", "schema_text", "shines", "still"]
 
 MAX_BYTES = 100_000_000
 """The largest scene file."""
 
 NO_LIGHT = "the scene has no light; expected an object with an emitter material, or a table [lights.NAME]"
-TABLES = ("camera", "render", "spectra", "materials", "objects", "lights", "atmosphere", "medium")
+TABLES = (
+    "camera", "render", "spectra", "materials", "objects", "lights", "atmosphere", "medium", "animation",
+)  # fmt: skip
 
 
-def load(path: str | os.PathLike[str]) -> Scene:
+def load(path: str | os.PathLike[str], *, allow_outside: bool = False) -> Scene:
     """Read a scene file.
 
     Args:
         path: TOML; file names in it are relative to its folder.
+        allow_outside: whether the files that it names may lie outside its folder.
 
     Raises:
         SceneError: the file cannot be read or has mistakes; all of them are in `problems`.
     """
     data, report = parse(path)
-    return _resolved(data, report, Path(path).parent)
+    return _resolved(data, report, Path(path).parent, allow_outside)
 
 
-def check(path: str | os.PathLike[str]) -> list[Problem]:
+def check(path: str | os.PathLike[str], *, allow_outside: bool = False) -> list[Problem]:
     """Every mistake of a scene file, without rendering; none when it is right."""
     try:
-        Scene.load(path)
+        Scene.load(path, allow_outside=allow_outside)
     except SceneError as error:
         return error.problems
     return []
@@ -66,23 +71,14 @@ def parse(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Report]:
     """
     file = os.fspath(path)
     try:
-        with open(path, "rb") as stream:
-            content = stream.read(MAX_BYTES + 1)
-        if len(content) > MAX_BYTES:
-            raise SceneError(
-                [Problem(file, 0, "", "", f"is larger than {MAX_BYTES // 1_000_000} MB", kind="size")]
-            )
+        content = sources.read(path, MAX_BYTES)
         text = content.decode("utf-8-sig")
-    except FileNotFoundError:
-        raise SceneError([Problem(file, 0, "", "", "there is no such file", kind="missing-file")]) from None
+    except SourceError as error:
+        kind = "size" if error.kind == "large" else "missing-file"
+        raise SceneError([Problem(file, 0, "", "", error.message, kind=kind)]) from None
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         raise SceneError([Problem(file, line, "", "", "is not UTF-8 text", kind="toml")]) from None
-    except OSError as error:
-        reason = (error.strerror or "unknown reason").lower()
-        raise SceneError(
-            [Problem(file, 0, "", "", f"cannot be read ({reason})", kind="missing-file")]
-        ) from None
     try:
         data, lines = core().parse_toml(text)
     except core().TomlError as error:
@@ -97,17 +93,21 @@ def parse(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Report]:
     return data, Report(file, lines)
 
 
-def resolve(data: Mapping[str, Any], directory: str | os.PathLike[str] = ".") -> Scene:
+def resolve(
+    data: Mapping[str, Any], directory: str | os.PathLike[str] = ".", *, allow_outside: bool = True
+) -> Scene:
     """A scene from the data of a scene file, as `plain` makes them.
 
     Args:
         data: the tables of the file.
         directory: folder that file names are relative to.
+        allow_outside: whether files may lie outside that folder. They may, since data come from the program itself,
+            which can read any file anyway; a service that passes on tables from others says False.
 
     Raises:
         SceneError: mistakes; all of them are in `problems`.
     """
-    return _resolved(dict(data), Report(), Path(directory))
+    return _resolved(dict(data), Report(), Path(directory), allow_outside)
 
 
 def plain(value: Any, key: str = "") -> Any:
@@ -146,7 +146,36 @@ def schema_text() -> str:
     return scene_file_reference()
 
 
-def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
+def _resolved(data: dict[str, Any], report: Report, directory: Path, allow_outside: bool) -> Scene:
+    if "animation" not in data:
+        return still(data, report, directory, allow_outside=allow_outside)
+    from illuminant.animation import Animation
+
+    animation = Animation.read(data, report, directory, allow_outside=allow_outside)
+    animation.check()
+    return animation.still(animation.first)
+
+
+def still(
+    data: Mapping[str, Any],
+    report: Report,
+    directory: Path,
+    meshes: dict[tuple[Any, ...], Any] | None = None,
+    *,
+    allow_outside: bool = False,
+) -> Scene:
+    """A scene from the tables of a scene file, without `[animation]`.
+
+    Args:
+        data: the tables, as `plain` makes them.
+        report: takes the mistakes, and knows the lines.
+        directory: folder that file names are relative to.
+        meshes: files of meshes that were read already; it grows.
+        allow_outside: whether files may lie outside that folder.
+
+    Raises:
+        SceneError: the report has mistakes.
+    """
     top = {key: value for key, value in data.items() if key not in TABLES}
     for key in TABLES:
         if key in data and not isinstance(data[key], dict):
@@ -168,7 +197,7 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
         "camera": tables["camera"],
     }
     render, _ = read_table(Render, tables["render"], ("render",), report)
-    resolver = Resolver(report, frame, directory)
+    resolver = Resolver(report, frame, directory, allow_outside=allow_outside)
     resolver.curves.check_named()
     if "camera" in data:
         camera = resolver.camera(data["camera"])
@@ -181,7 +210,7 @@ def _resolved(data: dict[str, Any], report: Report, directory: Path) -> Scene:
     lights = [resolver.light(name, raw) for name, raw in tables["lights"].items()]
     atmosphere = resolver.atmosphere(tables["atmosphere"]) if "atmosphere" in data else None
     medium = resolver.medium(tables["medium"]) if "medium" in data else None
-    placer = ObjectResolver(report, head.length_unit, head.up, directory)
+    placer = ObjectResolver(report, head.length_unit, head.up, directory, meshes, allow_outside=allow_outside)
     placed = {name: placer.placed(name, raw, materials) for name, raw in tables["objects"].items()}
     if not placed and not any(problem.table == "objects" for problem in report.problems):
         report.add(("objects",), "there is no object; expected a table [objects.NAME]", kind="no-objects")

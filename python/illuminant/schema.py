@@ -20,6 +20,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from illuminant.animation_schema import AnimationTable, Keys
 from illuminant.object_schema import Box, Disc, MeshTable, Move, Object, Rectangle, Rotation, Sphere
 from illuminant.quantities import QUANTITIES
 from illuminant.spectrum_schema import SpectrumTable, SpectrumValue
@@ -36,6 +37,7 @@ __all__ = [
     "KINDS_OF_LIGHT",
     "KINDS_OF_MATERIAL",
     "MAX_PIXELS",
+    "AnimationTable",
     "Box",
     "Camera",
     "CameraMove",
@@ -48,6 +50,7 @@ __all__ = [
     "Emitter",
     "Environment",
     "Filter",
+    "Keys",
     "Medium",
     "MeshTable",
     "Move",
@@ -670,3 +673,4 @@ class SceneFile(Table):
     lights: dict[str, LightValue] = key("lights by name", "", {})
     atmosphere: Fog | Distance | None = key("what becomes of light on its way to the eye", "", None)
     medium: Medium | None = key("what is in the air", "", None)
+    animation: AnimationTable | None = key("what moves and changes", "", None)

@@ -15,18 +15,23 @@ Example:
 from __future__ import annotations
 
 import csv
+import io
 import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from illuminant import sources
 from illuminant.errors import DataError
 
-__all__ = ["Sensors", "read"]
+__all__ = ["MOST_BYTES", "Sensors", "read"]
 
 PLACE = ("x", "y", "z")
 FACING = ("nx", "ny", "nz")
 READING = "illuminance_lx"
+
+MOST_BYTES = 10_000_000
+"""The largest table."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +66,7 @@ def read(
     found = Sensors([], [], [])
     wanted = ", ".join(PLACE + (FACING if not measured else ())) + (f" and {READING}" if measured else "")
     try:
-        with open(name, encoding="utf-8-sig", newline="") as stream:
+        with io.StringIO(sources.read(path, MOST_BYTES).decode("utf-8-sig"), newline="") as stream:
             for line, row in enumerate(csv.DictReader(stream), start=2):
                 try:
                     point = [float(row[key]) for key in PLACE]
@@ -76,7 +81,9 @@ def read(
                 found.points.append(point)
                 found.normals.append(normal)
                 found.illuminance_lx.extend([reading] if measured else [])
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except sources.SourceError as error:
+        raise DataError(f"{name} cannot be read as a table: {error.clause}.") from None
+    except (UnicodeDecodeError, csv.Error) as error:
         raise DataError(f"{name} cannot be read as a table: {error}.") from error
     if not found.points:
         raise DataError(f"{name} holds no sensors.")

@@ -448,8 +448,8 @@ def size_of(value: str | Sequence[int]) -> tuple[int, int]:
     return width, height
 
 
-def duration(value: str | float) -> float:
-    """Seconds from `30`, `30s`, `5m` or `1.5h`.
+def duration(value: str | float, option: str = "--time") -> float:
+    """Seconds from `30`, `30s`, `5m` or `1.5h`; `option` is what an error calls it.
 
     Raises:
         UsageError: it is no such time, or not above zero.
@@ -464,7 +464,7 @@ def duration(value: str | float) -> float:
     except ValueError:
         seconds = math.nan
     if not (seconds > 0 and math.isfinite(seconds)):
-        raise UsageError(f"--time {value}: expected a time such as 30s, 5m or 1.5h.")
+        raise UsageError(f"{option} {value}: expected a time such as 30s, 5m or 1.5h.")
     return seconds
 
 

@@ -20,13 +20,13 @@ Example:
 from __future__ import annotations
 
 import re
-import stat
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from illuminant import output
+from illuminant import output, sources
 from illuminant.errors import DataError, UsageError
+from illuminant.sources import SourceError
 from illuminant.spectrum import OUTSIDE, Outside, Quantity, Spectrum, mistake_in, one_of
 
 if TYPE_CHECKING:
@@ -382,23 +382,10 @@ def text_of(path: Path) -> str:
     """The text of a file of at most `MAX_BYTES`."""
     file = str(path)
     try:
-        mode = path.stat().st_mode
-        # Opening a pipe or a device could wait for ever.
-        if stat.S_ISREG(mode):
-            with path.open("rb") as stream:
-                data = stream.read(MAX_BYTES + 1)
-        else:
-            data = None
-    except FileNotFoundError:
-        raise DataError("no such file", file) from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise DataError(f"cannot be read: {reason[:1].lower()}{reason[1:]}", file) from None
-    if data is None:
-        kind = "a folder" if stat.S_ISDIR(mode) else "not a regular file"
-        raise DataError(f"is {kind}; expected a spectrum file", file)
-    if len(data) > MAX_BYTES:
-        raise DataError(f"is larger than {MAX_BYTES // 1_000_000} MB; expected a spectrum as text", file)
+        data = sources.read(path, MAX_BYTES)
+    except SourceError as error:
+        wanted = {"folder": "; expected a spectrum file", "large": "; expected a spectrum as text"}
+        raise DataError(error.message + wanted.get(error.kind, ""), file) from None
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise DataError("is text in UTF-16; expected UTF-8", file)
     if re.search(rb"[\x00-\x08\x0e-\x1f]", data):

@@ -12,11 +12,12 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-from illuminant import pixels, rgb_system
+from illuminant import pixels, rgb_system, sources
 from illuminant.curves import Curves
 from illuminant.errors import ImageError
 from illuminant.pattern_schema import ColourPattern, HeightPattern, PatternOnSurface, SlopePattern
 from illuminant.report import Path, Report, found
+from illuminant.sources import SourceError
 from illuminant.spectra import Spectrum
 from illuminant.texture_schema import ColourImage, HeightImage, ImageOnSurface, NormalImage, SlopeImage
 
@@ -38,6 +39,7 @@ class Textures:
         report: takes the mistakes.
         curves: resolves spectra.
         directory: folder that file names are relative to.
+        allow_outside: whether files may lie outside that folder.
         up: axis that points up.
         unit_m: length unit, in m.
     """
@@ -49,11 +51,13 @@ class Textures:
         directory: str | os.PathLike[str] = ".",
         up: str = "y",
         unit_m: float = 1.0,
+        *,
+        allow_outside: bool = False,
     ) -> None:
         self.up, self.unit_m = up, unit_m
         self.report = report
         self.curves = curves
-        self.directory = FilePath(directory)
+        self.directory, self.allow_outside = FilePath(directory), allow_outside
         self.images: dict[str, np.ndarray] = {}
         self.warnings: list[str] = []
 
@@ -200,7 +204,9 @@ class Textures:
 
         try:
             if isinstance(image, str):
-                values, whole_numbers = pixels.read(self.directory / image)
+                values, whole_numbers = pixels.read(
+                    sources.located(image, self.directory, self.allow_outside)
+                )
             elif isinstance(image, (dict, list, bool, int, float)) or image is None:
                 raise ImageError(f"must be the name of a file, found {found(image)}")
             else:
@@ -211,8 +217,11 @@ class Textures:
                     raise ImageError(f"must have the shape (height, width, 3), found {values.shape}")
             if not np.isfinite(values).all():
                 raise ImageError("has pixels that are not finite numbers")
+        except SourceError as error:
+            self.report.add_data_error((*path, "image"), error, error.kind)
+            return None
         except ImageError as error:
-            missing = isinstance(image, str) and not (self.directory / image).is_file()
+            missing = str(error).endswith(": there is no such file")
             self.report.add((*path, "image"), str(error), kind="missing-file" if missing else "image")
             return None
         return values, whole_numbers

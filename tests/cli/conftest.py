@@ -1,12 +1,8 @@
 """A small scene for the tests of the command."""
 
-import subprocess
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
-from illuminant.cli import run
 
 SCENE = """\
 title = "a ball under a lamp"
@@ -48,21 +44,3 @@ def scene(tmp_path: Path) -> Path:
     path = tmp_path / "ball.toml"
     path.write_text(SCENE)
     return path
-
-
-@pytest.fixture
-def inside(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> Callable[..., "subprocess.CompletedProcess[str]"]:
-    """Runs `illuminant` with the given arguments as `command` does, but in this process, which saves its start."""
-
-    def call(*arguments: object, cwd: Path | None = None) -> "subprocess.CompletedProcess[str]":
-        words = [str(argument) for argument in arguments]
-        with monkeypatch.context() as context:
-            if cwd is not None:
-                context.chdir(cwd)
-            code = run(words)
-        captured = capsys.readouterr()
-        return subprocess.CompletedProcess(words, code, captured.out, captured.err)
-
-    return call

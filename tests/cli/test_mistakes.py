@@ -69,7 +69,7 @@ LONG = "a" * 5000
         ("render large.toml", "[camera] size: is 1000000000 × 1000000000 pixels; at most"),
         ("render twice.toml", "twice.toml:15: is not valid TOML at column"),
         ("render none.toml", "[objects.ball] mesh: none.ply: there is no such file"),
-        ("render folder.toml", "[objects.ball] mesh: folder.ply: cannot be read (is a directory)"),
+        ("render folder.toml", "[objects.ball] mesh: folder.ply: is a folder"),
         ("render away.toml", "away.toml:4: [camera] eye: the camera sees nothing"),
         ("render magic.toml", 'magic.toml:9: [render] technique: no technique "magic"'),
         ("render depth.toml", "depth.toml:9: [render] depth: must be at least 1, found 0"),

@@ -201,7 +201,7 @@ def test_relight_and_paint(solved: Path, inside: Command) -> None:
         ("solve room.toml --light-samples 0", "--light-samples 0: expected a whole number from 1"),
         ("solve room.toml --illumination phong", "radiosity does not go with phong"),
         ("solve room.toml --sampling rbg", 'no spectral sampling "rbg"'),
-        ("relight missing.solution --lamp desk=1", "missing.solution cannot be read: no such file"),
+        ("relight missing.solution --lamp desk=1", "missing.solution cannot be read: there is no such file"),
         ("relight room.solution", "Nothing to change: give --lamp"),
         ("relight room.solution --lamp desk", "--lamp desk: expected a name, = and its new value."),
         ("relight room.solution --lamp dask=1", "There is no lamp 'dask': did you mean \"desk\"?"),
@@ -209,7 +209,7 @@ def test_relight_and_paint(solved: Path, inside: Command) -> None:
         ("relight room.solution --lamp desk=magic", "magic"),
         ("relight room.solution --paint whyte=0.5", "whyte"),
         ("relight room.solution --paint white=1.5", "reflectance"),
-        ("show missing.solution", "missing.solution cannot be read: no such file"),
+        ("show missing.solution", "missing.solution cannot be read: there is no such file"),
         ("show room.solution -o a.txt", "a.txt: expected a name that ends with .png, .exr, .glb or .csv."),
         ("show room.solution -o a.csv", "a.csv: illuminance needs places: give --grid or --sensors."),
         ("show room.solution -o a.png --grid 0,0,0:1,0,1:2x2", "go with an output that ends with .csv."),
@@ -227,7 +227,7 @@ def test_relight_and_paint(solved: Path, inside: Command) -> None:
         ("show room.toml", "room.toml is no solution of illuminant."),
         ("show half.solution", "half.solution is no solution of illuminant."),
         ("show void.solution", "void.solution is no solution of illuminant."),
-        ("show .", "cannot be read: is a directory."),
+        ("show .", "cannot be read: it is a folder."),
     ],
 )
 def test_mistakes_are_one_sentence_and_nothing_is_written(

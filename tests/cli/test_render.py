@@ -361,3 +361,76 @@ def test_ctrl_c_in_python_raises_with_the_image(scene: Path) -> None:
     finally:
         signal.signal(signal.SIGINT, before)
     assert isinstance(caught.value.image, Image)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        [
+            "--samples",
+            "4",
+            "--sampler",
+            "jittered",
+            "--caustics",
+            "--layers",
+            "depth,normal",
+            "--keep-spectra",
+        ],
+        [
+            "--technique",
+            "phong",
+            "--illumination",
+            "blinn",
+            "--shadows",
+            "rays",
+            "--layers",
+            "terms",
+            "--half",
+        ],
+        ["--technique", "raytrace", "--illumination", "hall", "--threshold", "0.01", "--cones"],
+        ["--technique", "radiosity", "--elements", "80", "--form-factors", "rays:32", "--gather", "direct"],
+        ["--technique", "hybrid", "--elements", "60", "--form-factors", "rays:32", "--mechanisms", "dd,sd"],
+        [
+            "--error",
+            "20%",
+            "--samples",
+            "128",
+            "--filter",
+            "mitchell:2",
+            "--depth",
+            "3",
+            "--seed",
+            "5",
+            "--lamps",
+        ],
+    ],
+    ids=lambda options: "-".join(options[:2]),
+)
+def test_the_command_in_the_header_makes_the_image_again(scene, inside, options):
+    import shlex
+
+    from illuminant.image import Image
+
+    assert inside("render", scene, "-o", scene.parent / "a.exr", "--samples", "2", *options).returncode == 0
+    said = json.loads(inside("info", scene.parent / "a.exr", "--json").stdout)
+    program, *words = shlex.split(said["remake"])
+    words[words.index("-o") + 1] = str(scene.parent / "b.exr")
+    assert program == "illuminant"
+    assert inside(*words).returncode == 0
+    one, other = (Image.open(scene.parent / name) for name in ("a.exr", "b.exr"))
+    assert one.xyz.tobytes() == other.xyz.tobytes()
+    assert one.layers.keys() == other.layers.keys()
+    assert one.settings == other.settings
+
+
+def test_info_tells_whether_the_scene_has_changed(scene, inside):
+    assert (
+        inside("render", scene, "-o", scene.parent / "a.png", "--samples", "1", "--size", "8x6").returncode
+        == 0
+    )
+    same = inside("info", scene.parent / "a.png", "--scene", scene)
+    assert (same.returncode, "was made from it as it is now" in same.stdout) == (0, True)
+    scene.write_text(scene.read_text().replace("radius = 0.5", "radius = 0.4"))
+    changed = inside("info", scene.parent / "a.png", "--scene", scene)
+    assert (changed.returncode, "NOT made from it" in changed.stdout) == (1, True)
+    assert inside("info", "--scene", scene).returncode == 2

@@ -265,7 +265,7 @@ def test_damage_is_a_data_error_or_a_finite_display(changes: list[tuple[int, int
 
 
 def test_a_file_that_is_not_there_is_named() -> None:
-    with pytest.raises(DataError, match=r"no\.icc: the profile cannot be read: no such file"):
+    with pytest.raises(DataError, match=r"no\.icc: the profile cannot be read: there is no such file"):
         profile.read("no.icc")
 
 

@@ -234,7 +234,7 @@ def test_bytes_after_the_end_are_refused() -> None:
 
 
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
-    with pytest.raises(ImageError, match=r"no\.rle cannot be read: no such file"):
+    with pytest.raises(ImageError, match=r"no\.rle cannot be read: there is no such file"):
         run_length.read(tmp_path / "no.rle")
 
 

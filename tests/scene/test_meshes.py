@@ -158,5 +158,5 @@ def test_files_that_are_not_there(tmp_path):
     with pytest.raises(DataError, match="there is no such file"):
         meshes.read(tmp_path / "none.obj")
     (tmp_path / "folder.obj").mkdir()
-    with pytest.raises(DataError, match="cannot be read"):
+    with pytest.raises(DataError, match="is a folder"):
         meshes.read(tmp_path / "folder.obj")

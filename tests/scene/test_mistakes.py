@@ -309,7 +309,7 @@ def test_a_file_that_is_not_there(tmp_path):
     (problem,) = scene_file.check(tmp_path / "none.toml")
     assert (problem.kind, problem.message) == ("missing-file", "there is no such file")
     (problem,) = scene_file.check(tmp_path)
-    assert "cannot be read" in problem.message
+    assert problem.message == "is a folder"
 
 
 def test_a_file_that_may_not_be_read(tmp_path):

@@ -28,6 +28,7 @@ NAMES = [
     "prism",
     "reading-room",
     "tiles",
+    "turntable",
     "two-filters",
     "whitted",
 ]

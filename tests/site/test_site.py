@@ -180,12 +180,15 @@ def test_a_mistake_of_a_page_is_found(mistakes, tmp_path, body, mistake):
     assert mistakes(tmp_path) == ([f"page.html: {mistake}"] if mistake else [])
 
 
+PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md")
+
+
 def test_a_dead_link_of_the_manual_is_one_sentence(repository, tmp_path):
     # A checkout with two pages, in the place of ours.
     for name in ("tools/site", "docs/site"):
         shutil.copytree(repository / name, tmp_path / name)
     (tmp_path / "python").symlink_to(repository / "python")
-    for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "benches/README.md", "docs/index.md"):
+    for name in (*PAGES, "benches/README.md", "docs/index.md"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("# Page\n")
     (tmp_path / "docs" / "index.md").write_text("# Page\n\n[gone](../scenes/gone.toml)\n")

@@ -182,7 +182,7 @@ def test_a_broken_file_is_refused_with_its_line(write, kind):
 
 
 def test_no_such_file(tmp_path):
-    with pytest.raises(DataError, match=r"none\.mtl: no such file"):
+    with pytest.raises(DataError, match=r"none\.mtl: there is no such file"):
         spectra.read_material(tmp_path / "none.mtl")
 
 

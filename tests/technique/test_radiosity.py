@@ -527,7 +527,7 @@ def test_a_damaged_file_is_one_sentence(solved, tmp_path):
     middle = bytearray(whole)
     middle[len(whole) // 3] ^= 0xFF
     load(bytes(middle))
-    with pytest.raises(DataError, match="cannot be read: no such file"):
+    with pytest.raises(DataError, match="cannot be read: there is no such file"):
         radiosity.Solution.load(tmp_path / "missing.solution")
 
 

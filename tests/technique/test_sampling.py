@@ -79,6 +79,7 @@ SCENES = [
     "prism.toml",
     "reading-room.toml",
     "tiles.toml",
+    "turntable.toml",
     "two-filters.toml",
     "whitted.toml",
 ]

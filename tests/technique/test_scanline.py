@@ -104,7 +104,7 @@ def test_every_technique_takes_maps():
 
 def test_maps_beyond_the_memory_are_refused(monkeypatch):
     monkeypatch.setattr("illuminant.machine.memory_available", lambda: 500_000_000)
-    with pytest.raises(MachineError, match="shadow maps of this scene need about"):
+    with pytest.raises(MachineError, match="shadow maps of this scene needs about"):
         luminance(stage("lamp"), shadows="maps:16384")
     luminance(stage("sun"), shadows="maps:1024")
 

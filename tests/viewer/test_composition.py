@@ -37,6 +37,22 @@ def test_false_colours_are_equal_for_equal_ratios():
     assert len({tuple(c) for c in codes[0, 2:]}) == 4
 
 
+def test_a_lamp_does_not_take_the_top_of_the_scale_and_the_title_says_that_it_is_above(state):
+    xyz = np.full((20, 20, 3), 50.0)
+    xyz[:4] = 40_000.0  # a fifth of the picture is lamp
+    lamp = np.zeros((20, 20), bool)
+    lamp[:4] = True
+    made = compose(xyz, state, MODES[1], shining=lamp)
+    assert made.scale == (pytest.approx(0.05), pytest.approx(50.0))
+    assert made.title == "luminance, cd/m²; lightest: > 50"
+    assert compose(xyz, state, MODES[1]).scale[1] == pytest.approx(40_000.0)
+    alone = compose(xyz[:4], state, MODES[1], shining=lamp[:4])
+    assert alone.scale[1] == pytest.approx(40_000.0), "a picture of nothing but lamps has their scale"
+    given = compose(xyz, state, MODES[1], scale=(1.0, 1000.0))
+    assert given.scale == (1.0, 1000.0)
+    assert given.title.endswith("> 1,000")
+
+
 def test_the_divider_parts_two_pictures_also_of_different_sizes():
     small, large = np.zeros((2, 4, 3), np.uint8), np.full((4, 8, 3), 9, np.uint8)
     joined = split(small, large, 0.25)

@@ -1,8 +1,10 @@
 """The refiner without a page: frames come in order, what is asked for later wins, solutions are relit."""
 
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -25,7 +27,7 @@ def refiner() -> Iterator[tuple[Refiner, list[Frame], list[str]]]:
     made.close()
 
 
-def until(holds: Callable[[], Any], seconds: float = 30.0) -> None:
+def until(holds: Callable[[], Any], seconds: float = 180.0) -> None:
     """Wait until something holds."""
     end = time.monotonic() + seconds
     while not holds():
@@ -78,8 +80,6 @@ def test_a_moved_camera_keeps_the_wavelengths_and_another_lamp_does_not(cornell)
 
 
 def test_a_solution_found_elsewhere_is_relit(cornell):
-    from dataclasses import replace
-
     state = replace(cornell, technique="radiosity")
     options = {"elements": 200, "sampling": state.sampling, "form_factors": "rays:16", "light_samples": 4}
     found = radiosity.solve(state.scene, technique="radiosity", **options)
@@ -94,6 +94,28 @@ def test_a_solution_found_elsewhere_is_relit(cornell):
     before, after = frames[0].image.xyz.mean((0, 1)), frames[-1].image.xyz.mean((0, 1))
     assert after[2] / after[0] > 1.3 * before[2] / before[0]
     assert wrong == []
+
+
+def test_maps_of_illuminance_become_finer_until_something_else_is_asked_for(cornell):
+    with refiner() as (made, frames, wrong):
+        made.ask(cornell, camera(cornell), illuminance=True)
+
+        def mapped() -> list[tuple[int, ...]]:
+            return [frame.illuminance.shape for frame in frames if frame.illuminance is not None]
+
+        until(lambda: len(mapped()) == 2)
+        assert mapped() == [(25, 40), (50, 80)]
+        assert all(frame.preview for frame in frames), "the whole picture is not rendered meanwhile"
+        large = camera(cornell) | {"size": [1280, 800]}
+        made.ask(cornell, large, illuminance=True)
+        until(lambda: len(mapped()) == 3)
+        second = made.ask(cornell, camera(cornell))
+        until(lambda: any(frame.request.number == second and not frame.preview for frame in frames))
+        assert len(mapped()) < 6, "a map that is wanted no more is not finished"
+        assert wrong == []
+        made.ask(replace(cornell, technique="gouraud"), camera(cornell), illuminance=True)
+        until(lambda: wrong)
+        assert wrong[0].startswith("gouraud has no map of illuminance")
 
 
 def test_first_pictures_disperse_nothing_and_differ_in_nothing_else(repository):
@@ -122,6 +144,24 @@ def test_a_closed_refiner_keeps_nothing(cornell):
         gc.disable()
     frames.clear()
     try:
-        until(lambda: job() is None, 5.0)
+        until(lambda: job() is None, 30.0)
     finally:
         gc.enable()
+
+
+def test_a_solution_that_nobody_waits_for_is_cancelled(cornell):
+    """A long one gives way to one of fewer elements, and ends with its page."""
+    long = replace(cornell, technique="radiosity", elements=60_000)
+    short = replace(long, elements=300)
+    with refiner() as (made, _, wrong):
+        made.ask(long, camera(long))
+        until(lambda: made._solving is long)
+        made.ask(short, camera(short))
+        until(lambda: made.solution_for(short) is not None)
+        assert made.solved == 1, "the long one came to its end"
+        made.ask(long, camera(long))
+        until(lambda: made._solving is long)
+        solving = next(one for one in threading.enumerate() if one.name == "illuminant solver")
+    solving.join(30.0)
+    assert not solving.is_alive()
+    assert wrong == []

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from illuminant.viewer.panels import duration
-from illuminant.viewer.panels.measure import amount
-from illuminant.viewer.scale import marks, with_scale
+from illuminant.viewer.scale import amount, marks, with_scale
 
 
 def test_a_logarithmic_scale_is_marked_at_powers_of_ten():

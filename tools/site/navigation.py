@@ -49,14 +49,19 @@ TOPICS = (
     "test-patterns.md",
     "calibration.md",
     "develop.md",
+    "animation.md",
+    "farm.md",
+    "reliability.md",
+    "security.md",
 )
 REFERENCE = ("scene-file.md", "command-line.md", "commands.md")
 PROOF = ("validation.md", "benchmarks.md", "benches.md")
-PROJECT = ("readme.md", "dependencies.md", "contributing.md", "changelog.md")
+PROJECT = ("readme.md", "dependencies.md", "contributing.md", "reporting.md", "changelog.md")
 
 TITLES = {
     "index.md": "illuminant",
     "readme.md": "About",
+    "reporting.md": "Reporting a fault",
     "benches.md": "Adding a peer",
     "atlas/index.md": "The atlas",
 }

@@ -19,6 +19,7 @@ PAGES_OUTSIDE = {
     "README.md": "readme.md",
     "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changelog.md",
+    "SECURITY.md": "reporting.md",
     "benches/README.md": "benches.md",
 }
 """Pages of the repository outside `docs`, and their names on the site."""

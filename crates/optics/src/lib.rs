@@ -7,6 +7,8 @@
 //! to sample them ([`hemisphere`], [`spherical_rectangle`], [`spherical_triangle`]). What the tracer needs is generic over the real type:
 //! f64 for analysis, f32 in the tracer. Vectors point away from the surface and have unit length (book 2.2.1).
 
+extern crate illuminant_elementary as _;
+
 pub mod dispersion;
 pub mod distribution;
 pub mod equilibrium;

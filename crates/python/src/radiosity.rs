@@ -1,10 +1,10 @@
 //! `radiosity`: solutions of the light between surfaces.
 
 use crate::scene::PyScene;
-use crate::technique::{settings, shaped};
+use crate::technique::{interruptible, settings, shaped};
 use glam::Vec3;
-use illuminant_radiosity::{Sparse, SpectralRows};
-use illuminant_technique::{RadiosityParts, RadiositySolution, basis};
+use illuminant_radiosity::{Cancel, Sparse, SpectralRows};
+use illuminant_technique::{Given, RadiosityParts, RadiositySolution, RowFinder, basis};
 use numpy::ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, ToPyArray};
 use pyo3::exceptions::PyValueError;
@@ -16,12 +16,95 @@ use std::sync::Arc;
 #[pyclass(name = "Solution", frozen, module = "illuminant._core")]
 pub(crate) struct PySolution(pub(crate) Arc<RadiositySolution>);
 
+/// Tells a solution under way that nobody waits for it any more; from any thread.
+#[pyclass(name = "Cancel", frozen, module = "illuminant._core")]
+pub(crate) struct PyCancel(Cancel);
+
+#[pymethods]
+impl PyCancel {
+    #[new]
+    fn new() -> Self {
+        Self(Cancel::default())
+    }
+
+    /// Asks the work to stop.
+    fn cancel(&self) {
+        self.0.cancel();
+    }
+
+    /// Whether it was asked to.
+    #[getter]
+    fn cancelled(&self) -> bool {
+        self.0.is_cancelled()
+    }
+}
+
+pyo3::create_exception!(_core, Cancelled, pyo3::exceptions::PyException, "A solution was cancelled.");
+
+fn flag(cancel: Option<&PyCancel>) -> Cancel {
+    cancel.map(|cancel| cancel.0.clone()).unwrap_or_default()
+}
+
+/// A result, or why there is none; what was cancelled has an exception of its own.
+fn unless<T>(cancel: &Cancel, result: Result<T, String>) -> PyResult<T> {
+    result.map_err(|e| if cancel.is_cancelled() { Cancelled::new_err(e) } else { wrong(e) })
+}
+
+/// What finds rows of form factors, for work that is shared out.
+#[pyclass(name = "RowFinder", frozen, module = "illuminant._core")]
+pub(crate) struct PyRowFinder(RowFinder);
+
+#[pymethods]
+impl PyRowFinder {
+    #[new]
+    fn new(py: Python<'_>, scene: &PyScene, settings: &str) -> PyResult<Self> {
+        let (settings, scene) = (self::settings(settings)?, Arc::clone(&scene.0));
+        py.detach(|| {
+            let basis = basis(&scene, &settings).map_err(wrong)?;
+            RowFinder::new(scene, &settings, &*basis).map(Self).map_err(wrong)
+        })
+    }
+
+    /// How many rows there are.
+    fn __len__(&self) -> usize {
+        self.0.sides()
+    }
+
+    /// How long rows are.
+    #[getter]
+    fn width(&self) -> usize {
+        self.0.width()
+    }
+
+    /// Rows first..last: where each begins, columns, and values.
+    #[expect(clippy::type_complexity, reason = "a tuple of arrays is what Python takes")]
+    fn find<'py>(
+        &self,
+        py: Python<'py>,
+        first: usize,
+        last: usize,
+    ) -> (Bound<'py, PyArray1<u64>>, Bound<'py, PyArray1<u32>>, Bound<'py, PyArray1<f32>>) {
+        let rows = py.detach(|| self.0.find(first..last));
+        (
+            PyArray1::from_iter(py, rows.starts.iter().map(|v| *v as u64)),
+            rows.columns.to_pyarray(py),
+            rows.values.to_pyarray(py),
+        )
+    }
+}
+
 fn wrong(error: impl ToString) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
 fn solved(result: Result<RadiositySolution, String>) -> PyResult<PySolution> {
     result.map(|solution| PySolution(Arc::new(solution))).map_err(wrong)
+}
+
+impl From<RadiositySolution> for PySolution {
+    fn from(solution: RadiositySolution) -> Self {
+        Self(Arc::new(solution))
+    }
 }
 
 fn item<'py, T: for<'a> FromPyObject<'a, 'py>>(dict: &Bound<'py, PyDict>, key: &str) -> PyResult<T> {
@@ -67,14 +150,36 @@ impl PySolution {
 
 #[pymethods]
 impl PySolution {
-    /// Solves for the light between the surfaces of a scene.
+    /// Solves for the light between the surfaces of a scene; `rows` are all rows of form factors (`starts`, `columns`, `values`, `width`), if
+    /// they are known.
     #[new]
-    fn new(py: Python<'_>, scene: &PyScene, settings: &str) -> PyResult<Self> {
+    #[pyo3(signature = (scene, settings, cancel=None, rows=None))]
+    fn new(
+        py: Python<'_>,
+        scene: &PyScene,
+        settings: &str,
+        cancel: Option<&PyCancel>,
+        rows: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
         let (settings, scene) = (self::settings(settings)?, Arc::clone(&scene.0));
-        py.detach(|| {
-            let basis = basis(&scene, &settings).map_err(wrong)?;
-            solved(RadiositySolution::new(&scene, &settings, basis))
-        })
+        let given = match rows {
+            None => Given::Nothing,
+            Some(rows) => {
+                let width: usize = item(rows, "width")?;
+                let (starts, columns) = layout(rows, "", width)?;
+                let values = flat(rows, "values")?;
+                if columns.len() != values.len() {
+                    return Err(wrong(DAMAGED));
+                }
+                Given::Rows(Sparse { starts, columns, values, width })
+            }
+        };
+        let cancel = flag(cancel);
+        let found = interruptible(py, &cancel, || {
+            let basis = basis(&scene, &settings).map_err(|e| e.to_string())?;
+            RadiositySolution::new_unless_cancelled(&scene, &settings, basis, given, &cancel)
+        })?;
+        unless(&cancel, found).map(Self::from)
     }
 
     /// A solution from what `parts` gave, for the scene that it was made for; `fitted_to` is the scene to which its samples were fitted.
@@ -144,25 +249,37 @@ impl PySolution {
     }
 
     /// The solution of the same surfaces with the materials of another scene.
-    fn repainted(&self, py: Python<'_>, scene: &PyScene, settings: &str) -> PyResult<Self> {
+    #[pyo3(signature = (scene, settings, cancel=None))]
+    fn repainted(
+        &self,
+        py: Python<'_>,
+        scene: &PyScene,
+        settings: &str,
+        cancel: Option<&PyCancel>,
+    ) -> PyResult<Self> {
         self.irradiance()?;
-        let (settings, scene) = (self::settings(settings)?, Arc::clone(&scene.0));
-        py.detach(|| solved(self.0.repainted(&scene, &settings)))
+        let (settings, scene, cancel) = (self::settings(settings)?, Arc::clone(&scene.0), flag(cancel));
+        let found =
+            interruptible(py, &cancel, || self.0.repainted_unless_cancelled(&scene, &settings, &cancel))?;
+        unless(&cancel, found).map(Self::from)
     }
 
     /// The solution after these objects have moved, and how many rows of form factors were found again.
+    #[pyo3(signature = (scene, settings, objects, cancel=None))]
     fn moved(
         &self,
         py: Python<'_>,
         scene: &PyScene,
         settings: &str,
         objects: Vec<usize>,
+        cancel: Option<&PyCancel>,
     ) -> PyResult<(Self, usize)> {
         self.irradiance()?;
-        let settings = self::settings(settings)?;
-        let scene = Arc::clone(&scene.0);
-        let (found, rows) = py.detach(|| self.0.moved(&scene, &settings, &objects)).map_err(wrong)?;
-        Ok((Self(Arc::new(found)), rows))
+        let (settings, scene, cancel) = (self::settings(settings)?, Arc::clone(&scene.0), flag(cancel));
+        let found = interruptible(py, &cancel, || {
+            self.0.moved_unless_cancelled(&scene, &settings, &objects, &cancel)
+        })?;
+        unless(&cancel, found).map(|(found, rows)| (found.into(), rows))
     }
 
     /// XYZ of the irradiance at points with unit normals, (n, 3); Y in lx.
@@ -263,5 +380,8 @@ impl PySolution {
 }
 
 pub(crate) fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("Cancelled", m.py().get_type::<Cancelled>())?;
+    m.add_class::<PyCancel>()?;
+    m.add_class::<PyRowFinder>()?;
     m.add_class::<PySolution>()
 }

@@ -3,14 +3,17 @@
 use crate::radiosity::PySolution;
 use crate::scene::PyScene;
 use illuminant_illumination::Illumination;
+use illuminant_radiosity::Cancel;
 use illuminant_sampling::Role;
 use illuminant_technique::pairs::{Pair, pair};
-use illuminant_technique::{Progress, Render, RenderError, Settings, Technique, Vertex, reflectances};
+use illuminant_technique::{
+    Part, Progress, Render, RenderError, Settings, Share, Technique, Vertex, reflectances,
+};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{PyArray1, PyArray2, PyArray3, ToPyArray};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -52,7 +55,9 @@ impl PyRender {
         let settings = self::settings(settings)?;
         let scene = Arc::clone(&scene.0);
         let solution = solution.map(|solution| Arc::clone(&solution.0));
-        let render = py.detach(|| Render::of(scene, settings, solution));
+        let cancel = Cancel::default();
+        let render =
+            interruptible(py, &cancel, || Render::unless_cancelled(scene, settings, solution, &cancel))?;
         Ok(Self(render.map_err(|e: RenderError| PyValueError::new_err(e.to_string()))?))
     }
 
@@ -73,20 +78,24 @@ impl PyRender {
     }
 
     /// Renders samples first..last of every pixel; `progress(fraction)` is called about ten times a second on this
-    /// thread, and may return False to cancel, as may Ctrl-C (which is raised). True when complete.
-    #[pyo3(signature = (first, last, progress=None))]
+    /// thread, and may return False to cancel, as may Ctrl-C (which is raised). True when complete. Of `tiles`, first and
+    /// last, only; and without the paths from lamps, if so told.
+    #[pyo3(signature = (first, last, progress=None, *, tiles=None, from_lamps=true))]
     fn run(
         &mut self,
         py: Python<'_>,
         first: u64,
         last: u64,
         progress: Option<Bound<'_, PyAny>>,
+        tiles: Option<(usize, usize)>,
+        from_lamps: bool,
     ) -> PyResult<bool> {
         if last < first {
             return Err(PyValueError::new_err(format!(
                 "samples run from {first} to {last}, which is backwards"
             )));
         }
+        let share = Share { samples: first..last, tiles: tiles.map(|(first, last)| first..last), from_lamps };
         let shared = Progress::default();
         let render = &mut self.0;
         let (sender, receiver) = std::sync::mpsc::channel();
@@ -95,7 +104,7 @@ impl PyRender {
         std::thread::scope(|scope| {
             let shared = &shared;
             let worker = scope.spawn(move || {
-                let complete = render.run(first..last, shared);
+                let complete = render.run(share, shared);
                 let _ = sender.send(());
                 complete
             });
@@ -128,6 +137,29 @@ impl PyRender {
                 .map_err(|_| pyo3::exceptions::PyRuntimeError::new_err("a render thread died"))?;
             raised.map_or(Ok(complete), Err)
         })
+    }
+
+    /// The number of tiles, and x₀, y₀, x₁, y₁ of each.
+    fn tiles(&self) -> Vec<[u32; 4]> {
+        self.0.film().tiles.iter().map(|tile| tile.area).collect()
+    }
+
+    /// What the film holds, as bytes for `join`.
+    fn part<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = py.detach(|| self.0.part().to_bytes());
+        Ok(PyBytes::new(py, &bytes.map_err(|e| PyValueError::new_err(e.to_string()))?))
+    }
+
+    /// Adds what another render of the same scene with the same settings has found.
+    fn join(&mut self, py: Python<'_>, part: &[u8]) -> PyResult<()> {
+        let render = &mut self.0;
+        let joined = py.detach(|| Part::from_bytes(part).and_then(|part| render.join(part)));
+        joined.map_err(|e| PyValueError::new_err(e.to_string()))
+    }
+
+    /// Forgets all samples.
+    fn clear(&mut self) {
+        self.0.clear();
     }
 
     /// The error of the spectral sampling in this scene: ΔE00 against 1 nm.
@@ -277,6 +309,36 @@ impl PyRender {
         dict.set_item("spectrum", replay.spectrum)?;
         Ok(dict)
     }
+}
+
+/// Does work on another thread, and cancels it when Ctrl-C comes, which is then raised.
+pub(crate) fn interruptible<T: Send>(
+    py: Python<'_>,
+    cancel: &Cancel,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    let (sender, receiver) = std::sync::mpsc::channel();
+    let receiver = std::sync::Mutex::new(receiver);
+    std::thread::scope(|scope| {
+        let worker = scope.spawn(move || {
+            let result = work();
+            let _ = sender.send(());
+            result
+        });
+        let mut raised = None;
+        while !py.detach(|| wait(&receiver)) {
+            if raised.is_none() {
+                raised = py.check_signals().err();
+                if raised.is_some() {
+                    cancel.cancel();
+                }
+            }
+        }
+        let result = worker
+            .join()
+            .map_err(|_| pyo3::exceptions::PyRuntimeError::new_err("a thread of the core died"))?;
+        raised.map_or(Ok(result), Err)
+    })
 }
 
 /// Waits for the end of a run, a tenth of a second at most; whether it came.

@@ -15,18 +15,20 @@ fn place(text: &str, byte: usize) -> (usize, usize) {
     (line, before.len() - start + 1)
 }
 
-struct Reader<'py, 'a> {
+struct Reader<'py> {
     py: Python<'py>,
-    text: &'a str,
+    /// Where the lines end, so that the line of a byte is found by halving.
+    ends: Vec<usize>,
     lines: Bound<'py, PyDict>,
 }
 
-impl<'py> Reader<'py, '_> {
+impl<'py> Reader<'py> {
     fn note(&self, path: &[Py<PyAny>], span: Option<std::ops::Range<usize>>) -> PyResult<()> {
         if let Some(span) = span {
             let key = PyTuple::new(self.py, path)?;
             if !self.lines.contains(&key)? {
-                self.lines.set_item(key, place(self.text, span.start).0)?;
+                let line = self.ends.partition_point(|&end| end < span.start) + 1;
+                self.lines.set_item(key, line)?;
             }
         }
         Ok(())
@@ -92,7 +94,8 @@ fn parse_toml<'py>(py: Python<'py>, text: &str) -> PyResult<(Py<PyAny>, Bound<'p
         let (line, column) = place(text, error.span().map_or(0, |span| span.start));
         TomlError::new_err((error.message().trim().replace('\n', "; "), line, column))
     })?;
-    let reader = Reader { py, text, lines: PyDict::new(py) };
+    let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect();
+    let reader = Reader { py, ends, lines: PyDict::new(py) };
     let data = reader.table(document.as_table(), &mut Vec::new())?;
     Ok((data, reader.lines))
 }

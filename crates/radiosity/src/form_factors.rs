@@ -1,6 +1,7 @@
 //! Form factors of all sides (book eqs 4.29 and 4.32): what part of what a side receives comes from each patch.
 
 use crate::area;
+use crate::cancel::{Cancel, Cancelled};
 use crate::elements::Elements;
 use crate::hemicube::Hemicube;
 use crate::rays;
@@ -151,10 +152,33 @@ impl FormFactors {
     #[must_use]
     pub fn new(geometry: &Geometry, elements: &Elements, method: Method) -> Self {
         let sides = 0..elements.sides.len() as u32;
-        Self::of(elements, &sides.collect::<Vec<_>>(), geometry, method)
+        Self::of(elements, &sides.collect::<Vec<_>>(), geometry, method, &Cancel::default())
     }
 
-    fn of(elements: &Elements, sides: &[u32], geometry: &Geometry, method: Method) -> Self {
+    /// The same, which stops between rows when it is told to.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn unless_cancelled(
+        geometry: &Geometry,
+        elements: &Elements,
+        method: Method,
+        cancel: &Cancel,
+    ) -> Result<Self, Cancelled> {
+        let sides = 0..elements.sides.len() as u32;
+        let found = Self::of(elements, &sides.collect::<Vec<_>>(), geometry, method, cancel);
+        cancel.check().map(|()| found)
+    }
+
+    /// The rows of sides. Those that are not begun when it is cancelled are empty.
+    #[must_use]
+    pub fn of(
+        elements: &Elements,
+        sides: &[u32],
+        geometry: &Geometry,
+        method: Method,
+        cancel: &Cancel,
+    ) -> Self {
         let width = elements.patches.len();
         let looking = Looking::new(method);
         let cube = match method {
@@ -168,6 +192,9 @@ impl FormFactors {
         let rows: Vec<Vec<(u32, f32)>> = sides
             .par_iter()
             .map_init(scratch, |(row, buffer), &side| {
+                if cancel.is_cancelled() {
+                    return Vec::new();
+                }
                 let patch =
                     |element, back| elements.side(element, back).map(|s| elements.patch_of[s as usize]);
                 match (&looking, &cube, buffer) {
@@ -211,7 +238,9 @@ impl FormFactors {
 
     /// The form factors after objects have moved (Baum et al. 1986), and how many rows had to be found again: those of the objects' own sides,
     /// those that saw one of them, and those of which a ray meets a box in which one was or is. All others are what they were.
-    #[must_use]
+    ///
+    /// # Errors
+    /// [`Cancelled`].
     pub fn updated(
         &self,
         geometry: &Geometry,
@@ -220,13 +249,17 @@ impl FormFactors {
         method: Method,
         objects: &[usize],
         boxes: &[(Vec3, Vec3)],
-    ) -> (Self, usize) {
+        cancel: &Cancel,
+    ) -> Result<(Self, usize), Cancelled> {
         let moves: Vec<bool> = (0..geometry.objects()).map(|object| objects.contains(&object)).collect();
         let of = |side: u32| moves[elements.element_of(side).object as usize];
         let patch_moves: Vec<bool> = elements.patches.iter().map(|sides| of(sides[0])).collect();
         let again: Vec<u32> = (0..elements.sides.len() as u32)
             .into_par_iter()
             .filter(|&side| {
+                if cancel.is_cancelled() {
+                    return false;
+                }
                 let sees = || self.rows.row(side as usize).0.iter().any(|&patch| patch_moves[patch as usize]);
                 let meets = || {
                     let mut met = false;
@@ -238,7 +271,8 @@ impl FormFactors {
                 of(side) || sees() || meets()
             })
             .collect();
-        let new = Self::of(elements, &again, geometry, method);
+        let new = Self::of(elements, &again, geometry, method, cancel);
+        cancel.check()?;
         let mut next = 0;
         let rows: Vec<Vec<(u32, f32)>> = (0..self.rows.height())
             .map(|side| {
@@ -252,7 +286,7 @@ impl FormFactors {
                 columns.iter().copied().zip(values.iter().copied()).collect()
             })
             .collect();
-        (Self::from_rows(Sparse::from_rows(&rows, elements.patches.len())), again.len())
+        Ok((Self::from_rows(Sparse::from_rows(&rows, elements.patches.len())), again.len()))
     }
 
     /// How far rows are from a sum of 1, in the mean and at most: the closure error of a scene that is closed, Σ F = 1.

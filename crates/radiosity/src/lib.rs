@@ -7,6 +7,8 @@
 //! Nothing here knows of spectra or illumination models: a sample is a number, and reflectances are given.
 
 mod area;
+mod bicgstab;
+mod cancel;
 mod elements;
 pub mod form_factor;
 mod form_factors;
@@ -22,6 +24,7 @@ mod solve;
 mod sparse;
 mod subdivision;
 
+pub use cancel::{Cancel, Cancelled};
 pub use elements::{Element, Elements, Part, Place, Refinement, Side};
 pub use form_factors::{FormFactors, Looking, Method, Row};
 pub use hemicube::Hemicube;

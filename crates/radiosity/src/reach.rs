@@ -1,5 +1,6 @@
 //! Which sides of objects light reaches at all: the inside of a closed body is not worth solving for, that of a room is.
 
+use crate::cancel::{Cancel, Cancelled};
 use crate::elements::{Elements, Part};
 use crate::form_factors::Looking;
 use crate::rays;
@@ -12,13 +13,16 @@ const RAYS: u32 = 64;
 /// Of each object whether light reaches its outside and its inside: sides that lamps light (`lit`), all that see such a side, or see one
 /// that does, and both sides of a sheet that lets light through (`sheets`, one for each object). `elements` are coarse, with both
 /// sides of everything that takes part.
-#[must_use]
+///
+/// # Errors
+/// [`Cancelled`].
 pub fn reached(
     geometry: &Geometry,
     elements: &Elements,
     sheets: &[bool],
     lit: &(dyn Fn(u32) -> bool + Sync),
-) -> Vec<[bool; 2]> {
+    cancel: &Cancel,
+) -> Result<Vec<[bool; 2]>, Cancelled> {
     let objects = geometry.objects();
     let number = |side: u32| {
         2 * elements.element_of(side).object as usize + usize::from(elements.sides[side as usize].back)
@@ -27,6 +31,7 @@ pub fn reached(
     let found: Vec<(usize, bool, Vec<usize>)> = (0..elements.sides.len() as u32)
         .into_par_iter()
         .map(|side| {
+            cancel.check()?;
             let mut seen = Vec::new();
             let mut other = false;
             rays::directions(geometry, elements, side, &looking, &mut |direction| {
@@ -37,9 +42,9 @@ pub fn reached(
             });
             seen.sort_unstable();
             seen.dedup();
-            (number(side), other || lit(side), seen)
+            Ok((number(side), other || lit(side), seen))
         })
-        .collect();
+        .collect::<Result<_, Cancelled>>()?;
     let mut sees = vec![Vec::new(); 2 * objects];
     let mut reached = vec![false; 2 * objects];
     for (side, lit, seen) in found {
@@ -59,5 +64,5 @@ pub fn reached(
         }
         new.into_iter().for_each(|side| reached[side] = true);
     }
-    reached.chunks(2).map(|sides| [sides[0], sides[1]]).collect()
+    Ok(reached.chunks(2).map(|sides| [sides[0], sides[1]]).collect())
 }

@@ -2,6 +2,8 @@
 //!
 //! P takes from sides to the patches that they make, by area. All lamps and spectral samples are columns of one right-hand side.
 
+use crate::bicgstab::bicgstab;
+use crate::cancel::{Cancel, Cancelled};
 use crate::elements::Elements;
 use crate::form_factors::FormFactors;
 use crate::sparse::SpectralRows;
@@ -85,6 +87,9 @@ pub enum SolveError {
         /// What was left.
         residual: f64,
     },
+    /// Nobody waits for it any more.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// What is to be solved.
@@ -129,6 +134,14 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// [`SolveError`]: a reflectance is above 1, the patches are too many for elimination, or an iteration does not converge.
     pub fn solve(&self, solver: Solver) -> Result<Solution, SolveError> {
+        self.solve_unless_cancelled(solver, &Cancel::default())
+    }
+
+    /// The same, which stops between steps when it is told to (elimination only between samples).
+    ///
+    /// # Errors
+    /// As [`Self::solve`], and [`SolveError::Cancelled`].
+    pub fn solve_unless_cancelled(&self, solver: Solver, cancel: &Cancel) -> Result<Solution, SolveError> {
         let through = |at: usize| self.transmittance.get(at).copied().unwrap_or(0.0);
         let returned = |at: usize| self.reflectance[at] + through(at);
         if let Some(at) = (0..self.reflectance.len()).find(|&at| !(0.0..=1.0 + 1e-4).contains(&returned(at)))
@@ -137,10 +150,10 @@ impl<'a> Problem<'a> {
         }
         let sent = self.restricted(self.direct);
         let (radiosity, history) = match solver {
-            Solver::Gauss => self.gauss(&sent)?,
-            Solver::GaussSeidel => self.gauss_seidel(&sent)?,
-            Solver::Progressive => self.progressive(&sent)?,
-            Solver::BiCgStab => self.bicgstab(&sent)?,
+            Solver::Gauss => self.gauss(&sent, cancel)?,
+            Solver::GaussSeidel => self.gauss_seidel(&sent, cancel)?,
+            Solver::Progressive => self.progressive(&sent, cancel)?,
+            Solver::BiCgStab => self.bicgstab(&sent, cancel)?,
         };
         Ok(Solution { irradiance: self.gathered(&radiosity), history })
     }
@@ -221,7 +234,7 @@ impl<'a> Problem<'a> {
         Ok(())
     }
 
-    fn gauss(&self, sent: &[f32]) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
+    fn gauss(&self, sent: &[f32], cancel: &Cancel) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
         let patches = self.elements.patches.len();
         if patches > Solver::MOST_ELIMINATED {
             return Err(SolveError::TooLarge { patches });
@@ -232,6 +245,7 @@ impl<'a> Problem<'a> {
         let solved: Vec<DMatrix<f64>> = (0..self.samples)
             .into_par_iter()
             .map(|sample| {
+                cancel.check()?;
                 let mut matrix = DMatrix::<f64>::identity(patches, patches);
                 for (side, &patch) in self.elements.patch_of.iter().enumerate() {
                     let share = self.elements.area(side as u32) / areas[patch as usize];
@@ -256,9 +270,9 @@ impl<'a> Problem<'a> {
                     f64::from(sent[patch * columns + lamp * self.samples + sample])
                 });
                 // Strictly dominant by its diagonal wherever something is absorbed (book 4.4.2), so never singular.
-                matrix.lu().solve(&right).unwrap_or(right)
+                Ok(matrix.lu().solve(&right).unwrap_or(right))
             })
-            .collect();
+            .collect::<Result<_, Cancelled>>()?;
         let mut radiosity = vec![0f32; patches * columns];
         for (sample, found) in solved.iter().enumerate() {
             for patch in 0..patches {
@@ -270,7 +284,7 @@ impl<'a> Problem<'a> {
         Ok((radiosity, vec![0.0]))
     }
 
-    fn gauss_seidel(&self, sent: &[f32]) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
+    fn gauss_seidel(&self, sent: &[f32], cancel: &Cancel) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
         let columns = self.columns();
         let mut radiosity = sent.to_vec();
         let mut history = Vec::new();
@@ -278,6 +292,7 @@ impl<'a> Problem<'a> {
         loop {
             let (mut changed, mut all) = (0.0f64, 0.0f64);
             for (patch, sides) in self.elements.patches.iter().enumerate() {
+                cancel.check()?;
                 let area = self.elements.patch_area(patch as u32);
                 new.fill(0.0);
                 for &side in sides {
@@ -307,7 +322,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The patch with most unshot light sends it to all sides that see it, and what comes by way of mirrors too.
-    fn progressive(&self, sent: &[f32]) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
+    fn progressive(&self, sent: &[f32], cancel: &Cancel) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
         let (columns, patches) = (self.columns(), self.elements.patches.len());
         let seen_by = self.factors.rows.transposed();
         // Of each patch the sides that see it by way of mirrors, and where their entries stand.
@@ -332,6 +347,7 @@ impl<'a> Problem<'a> {
         let mut returned = vec![0f32; columns];
         let most = 400 * patches.max(1);
         while left > self.tolerance * all && history.len() < most {
+            cancel.check()?;
             let Some(shooter) = (0..patches).max_by(|&a, &b| waiting[a].total_cmp(&waiting[b])) else {
                 break;
             };
@@ -373,79 +389,13 @@ impl<'a> Problem<'a> {
         Ok((radiosity, history))
     }
 
-    fn bicgstab(&self, sent: &[f32]) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
-        let columns = self.columns();
+    fn bicgstab(&self, sent: &[f32], cancel: &Cancel) -> Result<(Vec<f32>, Vec<f64>), SolveError> {
         let apply = |x: &[f32]| {
             let mut y = self.reflected(x);
-            y.par_iter_mut().zip(x).for_each(|(y, x)| *y = x - *y);
+            y.par_iter_mut().zip(x).with_min_len(4096).for_each(|(y, x)| *y = x - *y);
             y
         };
-        // One scalar product for each column.
-        let dot = |a: &[f32], b: &[f32]| {
-            let mut sums = vec![0f64; columns];
-            for (a, b) in a.chunks(columns).zip(b.chunks(columns)) {
-                for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-                    *sum += f64::from(*a) * f64::from(*b);
-                }
-            }
-            sums
-        };
-        let ratio = |a: &[f64], b: &[f64]| -> Vec<f64> {
-            a.iter().zip(b).map(|(a, b)| if *b == 0.0 { 0.0 } else { a / b }).collect()
-        };
-        let add = |x: &mut [f32], factor: &[f64], y: &[f32]| {
-            for (x, y) in x.chunks_mut(columns).zip(y.chunks(columns)) {
-                for ((x, f), y) in x.iter_mut().zip(factor).zip(y) {
-                    *x += *f as f32 * y;
-                }
-            }
-        };
-        let negative = |v: &[f64]| v.iter().map(|v| -v).collect::<Vec<_>>();
-        let norm = dot(sent, sent);
-        let relative = |r: &[f32]| {
-            let left = dot(r, r);
-            left.iter()
-                .zip(&norm)
-                .map(|(l, n)| if *n > 0.0 { (l / n).sqrt() } else { 0.0 })
-                .fold(0.0, f64::max)
-        };
-        let mut x = sent.to_vec();
-        let mut r = sent.to_vec();
-        add(&mut r, &vec![-1.0; columns], &apply(&x));
-        let shadow = r.clone();
-        let mut rho = dot(&shadow, &r);
-        let mut p = r.clone();
-        let mut history = vec![relative(&r)];
-        while history[history.len() - 1] > self.tolerance {
-            if history.len() >= 2000 {
-                break;
-            }
-            let v = apply(&p);
-            let alpha = ratio(&rho, &dot(&shadow, &v));
-            let mut s = r.clone();
-            add(&mut s, &negative(&alpha), &v);
-            let t = apply(&s);
-            let omega = ratio(&dot(&t, &s), &dot(&t, &t));
-            add(&mut x, &alpha, &p);
-            add(&mut x, &omega, &s);
-            r = s;
-            add(&mut r, &negative(&omega), &t);
-            let next = dot(&shadow, &r);
-            let beta: Vec<f64> =
-                ratio(&next, &rho).iter().zip(ratio(&alpha, &omega)).map(|(a, b)| a * b).collect();
-            rho = next;
-            add(&mut p, &negative(&omega), &v);
-            let mut direction = r.clone();
-            add(&mut direction, &beta, &p);
-            p = direction;
-            let residual = relative(&r);
-            // f32 carries no more: what is left is rounding.
-            let stuck = history.len() > 8 && residual >= history[history.len() - 4];
-            history.push(residual);
-            if stuck {
-                break;
-            }
-        }
+        let (x, history) = bicgstab(sent, self.columns(), (self.tolerance, 2000), apply, cancel)?;
         let residual = history[history.len() - 1];
         if residual > 1e3 * self.tolerance.max(1e-6) {
             return Err(SolveError::Diverged { solver: Solver::BiCgStab, steps: history.len(), residual });
@@ -475,7 +425,7 @@ impl<'a> Problem<'a> {
         // What a side does not see of other surfaces, by way of mirrors too, it sends where none of them receive it.
         let mut seen = vec![0f64; self.samples];
         for side in 0..self.elements.sides.len() {
-            seen.fill(self.factors.rows.sum(side));
+            seen.fill(1.0 - f64::from(self.factors.open[side]));
             if let Some(specular) = self.specular {
                 for values in specular.row(side).1.chunks(self.samples) {
                     seen.iter_mut().zip(values).for_each(|(sum, v)| *sum += f64::from(*v));

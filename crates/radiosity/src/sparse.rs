@@ -2,6 +2,42 @@
 
 use rayon::prelude::*;
 
+/// Columns of a product that are summed at once: a register of AVX2.
+const BLOCK: usize = 8;
+/// Sums that are under way at once for each column, so that no addition waits for the one before.
+const SUMS: usize = 4;
+
+/// Adds a row's product with `WIDTH` columns, from `first` on, of a matrix of `count` columns.
+#[inline]
+fn add_block<const WIDTH: usize>(
+    (columns, values): (&[u32], &[f32]),
+    right: &[f32],
+    (first, count): (usize, usize),
+    to: &mut [f32; WIDTH],
+) {
+    let mut sums = [[0f32; WIDTH]; SUMS];
+    let add = |sum: &mut [f32; WIDTH], column: u32, value: f32| {
+        let from = &right[column as usize * count + first..][..WIDTH];
+        for (sum, v) in sum.iter_mut().zip(from) {
+            *sum = value.mul_add(*v, *sum);
+        }
+    };
+    let (columns, values) = (columns.chunks_exact(SUMS), values.chunks_exact(SUMS));
+    let rest = columns.remainder().iter().zip(values.remainder());
+    for (columns, values) in columns.zip(values) {
+        for (i, sum) in sums.iter_mut().enumerate() {
+            add(sum, columns[i], values[i]);
+        }
+    }
+    for (sum, (&column, &value)) in sums.iter_mut().zip(rest) {
+        add(sum, column, value);
+    }
+    let [a, b, c, d] = sums;
+    for (i, to) in to.iter_mut().enumerate() {
+        *to += (a[i] + b[i]) + (c[i] + d[i]);
+    }
+}
+
 /// Rows of entries that are not 0, in the order of their columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sparse {
@@ -87,15 +123,39 @@ impl Sparse {
         product
     }
 
-    /// Adds a row's product with a matrix to `sum`, which has as many columns as that.
+    /// Adds a row's product with a matrix to `sum`, which has as many columns as that. Each column's sum has an order of its own that
+    /// depends on the row alone.
     #[inline]
     pub fn add_row(&self, row: usize, right: &[f32], sum: &mut [f32]) {
         let count = sum.len();
-        let (columns, values) = self.row(row);
-        for (&column, &value) in columns.iter().zip(values) {
-            let from = &right[column as usize * count..][..count];
-            for (sum, v) in sum.iter_mut().zip(from) {
-                *sum += value * v;
+        let row = self.row(row);
+        let mut first = 0;
+        // A line of the cache while there are columns enough, then a register, then half of one.
+        for wide in sum.chunks_exact_mut(2 * BLOCK) {
+            if let Ok(wide) = wide.try_into() {
+                add_block::<{ 2 * BLOCK }>(row, right, (first, count), wide);
+            }
+            first += 2 * BLOCK;
+        }
+        for wide in sum[first..].chunks_exact_mut(BLOCK) {
+            if let Ok(wide) = wide.try_into() {
+                add_block::<BLOCK>(row, right, (first, count), wide);
+            }
+            first += BLOCK;
+        }
+        for wide in sum[first..].chunks_exact_mut(BLOCK / 2) {
+            if let Ok(wide) = wide.try_into() {
+                add_block::<{ BLOCK / 2 }>(row, right, (first, count), wide);
+            }
+            first += BLOCK / 2;
+        }
+        if first < count {
+            let rest = &mut sum[first..];
+            for (&column, &value) in row.0.iter().zip(row.1) {
+                let from = &right[column as usize * count..][first..count];
+                for (sum, v) in rest.iter_mut().zip(from) {
+                    *sum = value.mul_add(*v, *sum);
+                }
             }
         }
     }
@@ -146,6 +206,19 @@ impl SpectralRows {
     pub fn add_row(&self, row: usize, right: &[f32], sum: &mut [f32]) {
         let count = sum.len();
         let (columns, values) = self.row(row);
+        if self.samples == BLOCK {
+            for (lamp, sum) in sum.chunks_exact_mut(BLOCK).enumerate() {
+                let mut all = [0f32; BLOCK];
+                for (&column, values) in columns.iter().zip(values.chunks_exact(BLOCK)) {
+                    let from = &right[column as usize * count + lamp * BLOCK..][..BLOCK];
+                    for ((all, v), f) in all.iter_mut().zip(from).zip(values) {
+                        *all = f.mul_add(*v, *all);
+                    }
+                }
+                sum.iter_mut().zip(all).for_each(|(sum, v)| *sum += v);
+            }
+            return;
+        }
         for (&column, values) in columns.iter().zip(values.chunks(self.samples)) {
             let from = &right[column as usize * count..][..count];
             for (sum, from) in sum.chunks_mut(self.samples).zip(from.chunks(self.samples)) {
@@ -176,5 +249,66 @@ mod tests {
         let turned = matrix.transposed();
         assert_eq!(turned.row(2), (&[0u32][..], &[2.0f32][..]));
         assert_eq!(turned.transposed(), matrix);
+    }
+
+    /// Numbers between -1 and 1 without a pattern that matters.
+    fn numbers(count: usize) -> Vec<f32> {
+        (0..count).map(|i| ((i * i) as f32 * 0.37 + i as f32).sin()).collect()
+    }
+
+    #[test]
+    fn sums_have_one_order_whatever_the_width_and_the_threads() {
+        let (height, width) = (40, 60);
+        let values = numbers(height * width);
+        let rows: Vec<Vec<(u32, f32)>> = (0..height)
+            .map(|row| {
+                let seen = (0..width).filter(|column| (row + column * column) % 7 < row % 6);
+                seen.map(|column| (column as u32, values[row * width + column])).collect()
+            })
+            .collect();
+        let matrix = Sparse::from_rows(&rows, width);
+        for count in [1, 3, 4, 5, 8, 15, 16, 24, 31] {
+            let right = numbers(width * count);
+            let expected = |row: usize, column: usize| {
+                // Four sums in turn for the columns of registers and halves, one for those that are left over.
+                let several = if column < count / 4 * 4 { 4 } else { 1 };
+                let mut sums = [0f32; 4];
+                for (at, (from, value)) in rows[row].iter().enumerate() {
+                    let sum = &mut sums[at % several];
+                    *sum = value.mul_add(right[*from as usize * count + column], *sum);
+                }
+                (sums[0] + sums[1]) + (sums[2] + sums[3])
+            };
+            for threads in [1, 2, 5] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                let product = pool.install(|| matrix.times(&right, count));
+                for (at, found) in product.iter().enumerate() {
+                    let bits = expected(at / count, at % count).to_bits();
+                    assert_eq!(found.to_bits(), bits, "{count} columns, {threads} threads: {at}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn spectral_rows_multiply_sample_by_sample() {
+        for samples in [3, 8] {
+            let columns = vec![0u32, 2, 3];
+            let values = numbers(3 * samples);
+            let rows =
+                SpectralRows::from_rows(&[(vec![], vec![]), (columns.clone(), values.clone())], samples);
+            let count = 2 * samples;
+            let right = numbers(4 * count);
+            let mut sum = vec![1.0; count];
+            rows.add_row(1, &right, &mut sum);
+            for (i, found) in sum.iter().enumerate() {
+                let of = |(k, column): (usize, &u32)| {
+                    f64::from(values[k * samples + i % samples])
+                        * f64::from(right[*column as usize * count + i])
+                };
+                let exact = 1.0 + columns.iter().enumerate().map(of).sum::<f64>();
+                assert!((f64::from(*found) - exact).abs() < 1e-5, "{samples} samples: {found} {exact}");
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Form factors after an object has moved (Baum et al. 1986), and which sides light reaches.
 
 use glam::{Affine3A, Mat3, Vec3, vec3};
-use illuminant_radiosity::{Elements, FormFactors, Looking, Method, Part, Refinement, reached};
+use illuminant_radiosity::{Cancel, Elements, FormFactors, Looking, Method, Part, Refinement, reached};
 use illuminant_scene::{Geometry, Mesh, Motion, Placement, Shape, embree};
 
 /// A room with a ball in it.
@@ -36,10 +36,13 @@ fn a_moved_object_changes_only_the_rows_that_see_it() {
     let factors = FormFactors::new(&before, &old, method);
     let boxes = [(vec3(0.7, 0.7, 0.7), vec3(1.3, 1.3, 1.3)), (vec3(0.9, 0.7, 2.7), vec3(1.5, 1.3, 3.3))];
     let looking = Looking::new(method).unwrap();
-    let (updated, rows) = factors.updated(&after, &new, &looking, method, &[1], &boxes);
+    let cancel = Cancel::default();
+    let (updated, rows) = factors.updated(&after, &new, &looking, method, &[1], &boxes, &cancel).unwrap();
     assert!(rows > 0 && rows < new.sides.len(), "{rows} of {}", new.sides.len());
     let whole = FormFactors::new(&after, &new, method);
     assert_eq!(updated.rows, whole.rows);
+    cancel.cancel();
+    assert!(factors.updated(&after, &new, &looking, method, &[1], &boxes, &cancel).is_err());
 }
 
 #[test]
@@ -53,7 +56,7 @@ fn light_reaches_the_sides_that_see_it() {
         let element = elements.element_of(side);
         element.object == 0 && !back && element.centre.z < 1e-3
     };
-    let found = reached(&geometry, &elements, &[false; 2], &lit);
+    let found = reached(&geometry, &elements, &[false; 2], &lit, &Cancel::default()).unwrap();
     let inside_of_room = !elements.sides.iter().enumerate().any(|(s, side)| {
         let element = elements.element_of(s as u32);
         element.object == 0 && !side.back && element.normal.dot(vec3(2.0, 2.0, 2.0) - element.centre) < 0.0

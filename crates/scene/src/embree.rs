@@ -222,11 +222,15 @@ unsafe impl Send for Device {}
 // SAFETY: as above.
 unsafe impl Sync for Device {}
 
+/// The code that Embree takes. Left to itself it takes the newest instruction set there is, and another width of vectors is
+/// another tree with other roundings; so it is held to the one that the core itself is built for.
+const INSTRUCTION_SET: &str = if cfg!(target_arch = "x86_64") { ",isa=avx2" } else { "" };
+
 impl Device {
     /// A device that builds with so many threads; 0 is one for each core.
     pub fn new(threads: usize) -> Result<Self, EmbreeError> {
         let api = api()?;
-        let config = CString::new(format!("threads={threads}")).unwrap_or_default();
+        let config = CString::new(format!("threads={threads}{INSTRUCTION_SET}")).unwrap_or_default();
         // SAFETY: the string lives through the call.
         let handle = unsafe { (api.new_device)(config.as_ptr()) };
         let device = Self { handle, api };

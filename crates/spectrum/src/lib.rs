@@ -4,6 +4,8 @@
 //! is a [`Curve`]; [`Observer`] holds the CIE matching functions; [`SpectralRange`] says over which wavelengths a
 //! computation runs. Wavelengths are in nm. Nothing is clamped and nothing is extrapolated without being asked.
 
+extern crate illuminant_elementary as _;
+
 mod arithmetic;
 mod blackbody;
 mod curve;

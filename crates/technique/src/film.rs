@@ -62,8 +62,8 @@ pub struct TileFilm {
     /// Samples that each pixel holds, dropped ones not counted.
     pub samples: Vec<u32>,
     /// The samples that the tile has seen, as disjoint ranges in order.
-    seen: Vec<Range<u64>>,
-    sums: Vec<i128>,
+    pub(crate) seen: Vec<Range<u64>>,
+    pub(crate) sums: Vec<i128>,
     channels: usize,
 }
 
@@ -73,6 +73,13 @@ impl TileFilm {
         let pixels = (x1 - x0) as usize * (y1 - y0) as usize;
         let (samples, sums) = (vec![0; pixels], vec![0; pixels * channels]);
         Self { area, samples, seen: Vec::new(), sums, channels }
+    }
+
+    /// Forgets all samples.
+    fn clear(&mut self) {
+        self.samples.fill(0);
+        self.sums.fill(0);
+        self.seen.clear();
     }
 
     /// Adds to the channels of a pixel (by its place in the whole image) without counting a sample.
@@ -206,6 +213,15 @@ impl Film {
         }
         let from_lamps = settings.caustics.then(|| TileFilm::new(crop, channels));
         Self { crop, plan, tiles, from_lamps, channels }
+    }
+
+    /// Forgets all samples.
+    pub fn clear(&mut self) {
+        self.tiles
+            .iter_mut()
+            .chain(&mut self.from_lamps)
+            .filter(|tile| !tile.seen.is_empty())
+            .for_each(TileFilm::clear);
     }
 
     /// Channels of a pixel, over all layers.

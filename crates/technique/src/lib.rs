@@ -12,6 +12,7 @@ mod lanes;
 mod light_tracing;
 mod media;
 pub mod pairs;
+mod part;
 mod participating;
 mod passes;
 mod path;
@@ -29,12 +30,14 @@ mod wavelength;
 
 pub use film::{Film, LayerPlan, TOO_LARGE, TileFilm, fixed};
 pub use filter::{Filter, FilterSampler};
+pub use part::{Part, PartError};
 pub use passes::Replay;
 pub use path::{Counts, PathTracer, Probe, Query, Recorder, Vertex};
 pub use radiosity::{
-    Gather, Mechanisms, RadiosityParts, RadiosityReport, RadiositySettings, RadiositySolution,
+    Gather, Given, Mechanisms, RadiosityParts, RadiosityReport, RadiositySettings, RadiositySolution,
+    RowFinder,
 };
-pub use render::{Dropped, Progress, Render, RenderError, Statistics};
+pub use render::{Dropped, Progress, Render, RenderError, Share, Statistics};
 pub use sampler::Sampler;
 pub use scanline::edges;
 pub use scene_products::{basis, products, reflectances, spectral_error};

@@ -4,18 +4,21 @@ use crate::film::{Film, TOO_LARGE, TileFilm};
 use crate::filter::FilterSampler;
 use crate::haze::Haze;
 use crate::pairs;
+use crate::part::{Part, PartError};
 use crate::passes::{How, Job, Light, Replay, TileCounts, TileRenderer, group_lamps, renderer};
 use crate::path::Query;
-use crate::radiosity::RadiositySolution;
+use crate::radiosity::{Given, RadiositySolution};
 use crate::sampler::Numbers;
 use crate::scanline::BAND;
 use crate::scene_products::{basis, spectral_error};
 use crate::settings::{Layer, LightCentres, Settings, Shadows, Technique};
 use illuminant_illumination::Illumination;
+use illuminant_radiosity::Cancel;
 use illuminant_sampling::{Basis, SamplingError, SpectralError};
 use illuminant_scene::Scene;
 use illuminant_spectrum::{Curve, Observer};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -37,7 +40,7 @@ pub enum RenderError {
 }
 
 /// A sample that was not a radiance, and left out.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Dropped {
     /// x and y in the whole image.
     pub pixel: [u32; 2],
@@ -53,7 +56,7 @@ pub struct Dropped {
 const DETAILS: usize = 100;
 
 /// What a render has done so far.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Statistics {
     /// Time spent in [`Render::run`].
     pub elapsed: Duration,
@@ -71,6 +74,43 @@ pub struct Statistics {
     pub dropped: u64,
     /// The first of them.
     pub details: Vec<Dropped>,
+}
+
+impl Statistics {
+    /// Adds what another part of the render has done.
+    pub(crate) fn join(&mut self, other: Self) {
+        self.elapsed = self.elapsed.saturating_add(other.elapsed);
+        let sums = [
+            (&mut self.samples, other.samples),
+            (&mut self.closest, other.closest),
+            (&mut self.occlusion, other.occlusion),
+            (&mut self.pruned, other.pruned),
+            (&mut self.spans, other.spans),
+            (&mut self.dropped, other.dropped),
+        ];
+        sums.into_iter().for_each(|(sum, more)| *sum = sum.saturating_add(more));
+        self.details.extend(other.details);
+        self.details.sort_by_key(|dropped| (dropped.sample, dropped.pixel[1], dropped.pixel[0]));
+        self.details.truncate(DETAILS);
+    }
+}
+
+/// A share of the work of a render: samples of the pixels of some tiles, and paths from lamps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Share {
+    /// Which samples.
+    pub samples: Range<u64>,
+    /// Of which tiles, by number; of all where there is nothing.
+    pub tiles: Option<Range<usize>>,
+    /// Whether the paths from lamps that belong to these samples are followed, where the settings ask for such paths.
+    pub from_lamps: bool,
+}
+
+impl From<Range<u64>> for Share {
+    /// These samples of all pixels.
+    fn from(samples: Range<u64>) -> Self {
+        Self { samples, tiles: None, from_lamps: true }
+    }
 }
 
 /// The progress of a run, shared with whoever watches it.
@@ -128,7 +168,20 @@ impl Render {
         settings: Settings,
         solution: Option<Arc<RadiositySolution>>,
     ) -> Result<Self, RenderError> {
-        Self::with(scene, settings, solution, None)
+        Self::unless_cancelled(scene, settings, solution, &Cancel::default())
+    }
+
+    /// The same; where the light between surfaces has to be solved for first, that stops when it is told to.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; what is cancelled is no render.
+    pub fn unless_cancelled(
+        scene: Arc<Scene>,
+        settings: Settings,
+        solution: Option<Arc<RadiositySolution>>,
+        cancel: &Cancel,
+    ) -> Result<Self, RenderError> {
+        Self::with(scene, settings, solution, None, cancel)
     }
 
     /// A render of a scene that differs from this one's in its camera, or by other settings, in the same wavelengths: to fit
@@ -146,7 +199,7 @@ impl Render {
         let same = settings.sampling == self.job.settings.sampling
             && scene.lamps.len() == self.job.scene.lamps.len()
             && scene.range == self.job.scene.range;
-        Self::with(scene, settings, solution, same.then(|| Arc::clone(&self.basis)))
+        Self::with(scene, settings, solution, same.then(|| Arc::clone(&self.basis)), &Cancel::default())
     }
 
     fn with(
@@ -154,6 +207,7 @@ impl Render {
         settings: Settings,
         solution: Option<Arc<RadiositySolution>>,
         wavelengths: Option<Arc<dyn Basis>>,
+        cancel: &Cancel,
     ) -> Result<Self, RenderError> {
         let technique: Technique = settings.technique.parse().map_err(RenderError::Setting)?;
         let illumination: Illumination = settings.illumination.parse().map_err(RenderError::Setting)?;
@@ -225,7 +279,10 @@ impl Render {
         let film = Film::with_tiles(scene.camera.crop, tile, &settings, &names, basis.len());
         let solution = match (technique, solution) {
             (technique, None) if technique.is_solved() => {
-                let solved = pool.install(|| RadiositySolution::new(&scene, &settings, Arc::clone(&basis)));
+                let solved = pool.install(|| {
+                    let basis = Arc::clone(&basis);
+                    RadiositySolution::new_unless_cancelled(&scene, &settings, basis, Given::Nothing, cancel)
+                });
                 Some(Arc::new(solved.map_err(RenderError::Setting)?))
             }
             (_, given) => given,
@@ -255,16 +312,22 @@ impl Render {
         Ok(Self { job, renderer, basis, film, statistics: Statistics::default(), solution, pool })
     }
 
-    /// Renders `samples` of every pixel, without those that it holds already; false when it was cancelled. Tiles are taken
-    /// in any order by any thread, and the bits do not depend on it.
-    pub fn run(&mut self, samples: Range<u64>, progress: &Progress) -> bool {
+    /// Renders samples of every pixel, or another share of the work, without those that it holds already; false when it was
+    /// cancelled. Tiles are taken in any order by any thread, and the bits do not depend on it.
+    pub fn run(&mut self, share: impl Into<Share>, progress: &Progress) -> bool {
         let start = Instant::now();
+        let Share { samples, tiles, from_lamps } = share.into();
         let count = samples.end.saturating_sub(samples.start);
-        let [w, h] = self.film.size();
+        let most = self.film.tiles.len();
+        let tiles = tiles.map_or(0..most, |tiles| tiles.start.min(most)..tiles.end.min(most));
+        let (job, renderer) = (&self.job, &*self.renderer);
+        let tiles = self.film.tiles.get_mut(tiles).unwrap_or_default();
         progress.done.store(0, Ordering::Relaxed);
-        let ends = 1 + u64::from(self.film.from_lamps.is_some());
-        progress.total.store((w * h) as u64 * count * ends, Ordering::Relaxed);
-        let (job, renderer, tiles) = (&self.job, &*self.renderer, &mut self.film.tiles);
+        let pixels: usize = tiles.iter().map(|tile| tile.samples.len()).sum();
+        let from_lamps = from_lamps && self.film.from_lamps.is_some();
+        let of_lamps =
+            self.film.from_lamps.as_ref().filter(|_| from_lamps).map_or(0, |film| film.samples.len());
+        progress.total.store((pixels + of_lamps) as u64 * count, Ordering::Relaxed);
         let results: Vec<Option<TileCounts>> = self.pool.install(|| {
             tiles
                 .par_iter_mut()
@@ -281,7 +344,7 @@ impl Render {
         });
         let mut complete = results.iter().all(Option::is_some);
         let mut results: Vec<TileCounts> = results.into_iter().flatten().collect();
-        complete &= self.run_from_lamps(samples, progress, &mut results);
+        complete &= !from_lamps || self.run_from_lamps(samples, progress, &mut results);
         for result in results {
             self.statistics.samples += result.samples;
             self.statistics.closest += result.counts.closest;
@@ -408,6 +471,27 @@ impl Render {
             std::hint::black_box(met);
             (count, start.elapsed())
         })
+    }
+
+    /// What the film holds, to be kept or sent.
+    #[must_use]
+    pub fn part(&self) -> Part {
+        Part::of(&self.film, &self.statistics)
+    }
+
+    /// Adds what another render of the same scene with the same settings has found, all of it or nothing. That they are the same
+    /// is the caller's to know.
+    ///
+    /// # Errors
+    /// [`PartError`] when it does not fit, or holds samples that are here already.
+    pub fn join(&mut self, part: Part) -> Result<(), PartError> {
+        part.join(&mut self.film, &mut self.statistics)
+    }
+
+    /// Forgets all samples, but nothing that was prepared for them.
+    pub fn clear(&mut self) {
+        self.film.clear();
+        self.statistics = Statistics::default();
     }
 
     /// The light between surfaces, where it has been solved for.

@@ -28,6 +28,7 @@ from illuminant.cli import (
     diff,
     display,
     dither,
+    farm,
     gamma,
     gamut,
     info,
@@ -68,6 +69,7 @@ app.command("audit", short_help="Test the physics of a material.")(audit.audit)
 app.command("view", short_help="Walk through a scene in a browser.")(view.view)
 app.command("atlas", short_help="Draw the figures and tables of the book.")(atlas.atlas)
 app.command("info", short_help="Say what was found here, or in an image.")(info.info)
+app.add_typer(farm.app, name="farm", short_help="Render on many machines.")
 app.add_typer(gamma.app, name="gamma", short_help="Tables, fits and studies of a monitor's gamma.")
 app.command("pattern", short_help="Draw a test pattern for a display.")(pattern.pattern)
 app.add_typer(calibrate.app, name="calibrate", short_help="Adjust, measure and describe a display.")

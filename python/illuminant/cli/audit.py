@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from illuminant.cli.options import Json
+from illuminant.cli.options import AllowOutside, Json
 from illuminant.cli.words import numbers
 
 if TYPE_CHECKING:
@@ -48,6 +48,7 @@ def audit(
         Path | None,
         typer.Option("--plots", metavar="DIR", help="Draw the shares of each material.", show_default=False),
     ] = None,
+    allow_outside: AllowOutside = False,
     json: Json = False,
 ) -> None:
     """Say how much of the light is reflected, transmitted and absorbed, and test the laws of physics.
@@ -72,6 +73,7 @@ def audit(
         if wavelengths is None
         else tuple(numbers(wavelengths, "--wavelengths")),
         draws=draws,
+        allow_outside=allow_outside,
     )
     if json:
         emit_json([one.facts() for one in found])

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from illuminant.cli.options import Json
+from illuminant.cli.options import AllowOutside, Json
 
 __all__ = ["check"]
 
@@ -19,6 +20,7 @@ def check(
     schema: Annotated[
         bool, typer.Option("--schema", help="Print every table and key of a scene file, with an example.")
     ] = False,
+    allow_outside: AllowOutside = False,
     json: Json = False,
 ) -> None:
     """Report every mistake of a scene without rendering it.
@@ -29,7 +31,7 @@ def check(
     Example:
       illuminant check room.toml
     """
-    from illuminant import examination, scene_file
+    from illuminant import examination, scene_file, sources
     from illuminant.cli.report import emit_json, warning
     from illuminant.errors import Problem, SceneError, UsageError
     from illuminant.scene import Scene
@@ -40,12 +42,14 @@ def check(
     if not scenes:
         raise UsageError("Name a scene file, or use --schema to print what may stand in one.")
     for path in scenes:
-        if not path.is_file():
-            raise UsageError(f"{path}: {'is a folder' if path.is_dir() else 'there is no such file'}.")
+        try:
+            sources.check(path, sys.maxsize)
+        except sources.SourceError as error:
+            raise UsageError(f"{error}.") from None
     problems: dict[str, list[Problem]] = {}
     for path in scenes:
         try:
-            scene = Scene.load(path)
+            scene = Scene.load(path, allow_outside=allow_outside)
             problems[str(path)] = examination.problems(scene)
         except SceneError as error:
             problems[str(path)] = error.problems

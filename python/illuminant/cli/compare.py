@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from illuminant.cli.options import Exposure, Json
+from illuminant.cli.options import AllowOutside, Exposure, Json, MemoryLimit
 
 __all__ = ["compare"]
 
@@ -57,6 +57,8 @@ def compare(
         int | None, typer.Option("--depth", metavar="N", help="Longest path in segments.", show_default=False)
     ] = None,
     exposure: Exposure = None,
+    allow_outside: AllowOutside = False,
+    memory_limit: MemoryLimit = None,
     json: Json = False,
 ) -> None:
     """Render a scene by all pairs of technique and illumination model that have a meaning, and lay them side by side.
@@ -84,6 +86,8 @@ def compare(
         illuminations=illuminations.split(",") if illuminations else None,
         only=only,
         on_start=None if json else lambda pair: note(f"{pair.technique} with {pair.illumination} …"),
+        allow_outside=allow_outside,
+        memory_limit=memory_limit,
         **options,
     )
     if json:
@@ -104,6 +108,7 @@ def compare(
     }
     asked |= {"captions": captions if captions != "numbers" else None, **options, "exposure": exposure}
     words = [word for name, value in asked.items() if value is not None for word in (f"--{name}", str(value))]
+    words += ["--allow-outside"] if allow_outside else []
     command = shlex.join(["illuminant", "compare", str(scene), *words])
     save_sheet(path, found, exposure, columns=columns, captions=captions, command=command)
     note(f"{path}: contact sheet")

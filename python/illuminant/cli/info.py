@@ -19,24 +19,45 @@ def info(
             metavar="IMAGE", help="Show the header of this .exr, .png or .rle.", show_default=False
         ),
     ] = None,
+    scene: Annotated[
+        Path | None,
+        typer.Option(
+            "--scene",
+            metavar="SCENE",
+            help="Check that the image was made from this scene as it is now (exit code 1 if not).",
+            show_default=False,
+        ),
+    ] = None,
     json: Json = False,
 ) -> None:
-    """Say what was found on this machine and what to do about the rest, or what an image says of itself.
+    """Say what was found on this machine and what to do about the rest; or what an image says of itself, and the
+    command that makes it again.
 
     \b
-    Example:
+    Examples:
       illuminant info room.exr
+      illuminant info room.exr --scene room.toml
     """
     from illuminant import info as facts_of
     from illuminant.cli.report import emit_json
+    from illuminant.errors import UsageError
 
+    if scene is not None and image is None:
+        raise UsageError("--scene: goes with an image.")
     facts = facts_of.machine_facts() if image is None else facts_of.image_facts(image)
+    if scene is not None:
+        facts["same_scene"] = facts_of.same_scene(facts["settings"], scene)
     if json:
         emit_json(facts)
     elif image is None:
         _print_machine(facts)
     else:
         _print_image(facts)
+        if scene is not None:
+            made = "made from it as it is now" if facts["same_scene"] else "NOT made from it as it is now"
+            typer.echo(f"\n{scene}: the image was {made}.")
+    if not facts.get("same_scene", True):
+        raise typer.Exit(1)
 
 
 def _line(name: str, value: Any, remedy: str | None = None) -> None:
@@ -87,7 +108,9 @@ def _print_image(facts: dict[str, Any]) -> None:
             value = {"samples": " to ", "size": "x"}.get(key, ",").join(map(str, value))
         _line(key.replace("_", " "), "no limit" if key == "depth" and value is None else value)
     if facts.get("remake"):
-        typer.echo(f"\nMake it again with:\n  {facts['remake']}")
+        version = facts["settings"].get("version")
+        by = f", by illuminant {version}" if version else ""
+        typer.echo(f"\nMake it again with{by}:\n  {facts['remake']}")
 
 
 def _print_developed(stages: Any) -> None:

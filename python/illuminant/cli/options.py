@@ -9,6 +9,7 @@ import typer
 
 __all__ = [
     "Adaptive",
+    "AllowOutside",
     "Assume",
     "Bits",
     "DisplayName",
@@ -20,12 +21,31 @@ __all__ = [
     "Gather",
     "Json",
     "LightSamples",
+    "MemoryLimit",
     "Patches",
     "Pipeline",
     "SceneFile",
     "Solver",
     "ToneName",
     "Transfer",
+]
+
+AllowOutside = Annotated[
+    bool,
+    typer.Option(
+        "--allow-outside",
+        help="Let the scene name files outside its folder: only for scenes that you trust.",
+    ),
+]
+
+MemoryLimit = Annotated[
+    str | None,
+    typer.Option(
+        "--memory-limit",
+        metavar="SIZE",
+        help="Refuse the work if it would take more memory, such as 4GB or 500MB (what is free).",
+        show_default=False,
+    ),
 ]
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (TOML).", show_default=False)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,6 +12,7 @@ import typer
 from illuminant.cli.look import asked_look
 from illuminant.cli.options import (
     Adaptive,
+    AllowOutside,
     Bits,
     DisplayName,
     DitherName,
@@ -21,6 +23,7 @@ from illuminant.cli.options import (
     Gather,
     Json,
     LightSamples,
+    MemoryLimit,
     Patches,
     Pipeline,
     SceneFile,
@@ -30,10 +33,13 @@ from illuminant.cli.options import (
 )
 
 if TYPE_CHECKING:
+    from illuminant.checkpoint import Checkpoint, Keeper
     from illuminant.image import Image, Saved
-    from illuminant.job import Job
+    from illuminant.job import Job, OnProgress
+    from illuminant.scene import Scene
+    from illuminant.settings import Settings
 
-__all__ = ["render"]
+__all__ = ["Here", "done_by", "render"]
 
 SHOWN = 3
 """How many dropped samples are named one by one."""
@@ -294,6 +300,35 @@ def render(
     dither: DitherName = "none",
     bits: Bits = 8,
     pipeline: Pipeline = "ideal",
+    checkpoint: Annotated[
+        Path | None,
+        typer.Option(
+            "--checkpoint",
+            metavar="FILE",
+            help="Keep here what is done, to go on from after a crash or Ctrl-C.",
+            show_default=False,
+        ),
+    ] = None,
+    every: Annotated[
+        str | None,
+        typer.Option("--every", metavar="TIME", help="Time between checkpoints (60s)."),
+    ] = None,
+    resume: Annotated[
+        bool,
+        typer.Option("--resume", help="Go on from the checkpoint, if there is one, to the same bits."),
+    ] = False,
+    frames: Annotated[
+        str | None,
+        typer.Option(
+            "--frames",
+            metavar="N-M",
+            help="Frames of the scene's [animation]: all, 12, 1-48, 1-48x2 or 5,7,9, into FILE with #### for the "
+            "number (SCENE.####.png). Finished ones are passed over.",
+        ),
+    ] = None,
+    again: Annotated[
+        bool, typer.Option("--again", help="With --frames: render finished ones too.", show_default=False)
+    ] = False,
     pixel: Annotated[
         str | None,
         typer.Option(
@@ -306,6 +341,8 @@ def render(
         int | None,
         typer.Option("--sample", metavar="K", help="Which path of that pixel (0).", show_default=False),
     ] = None,
+    allow_outside: AllowOutside = False,
+    memory_limit: MemoryLimit = None,
     json: Json = False,
 ) -> None:
     """Render a scene to an image.
@@ -317,6 +354,8 @@ def render(
     Examples:
       illuminant render room.toml -o room.png
       illuminant render room.toml -o room.exr -o room.png --time 30s
+      illuminant render room.toml --samples 4096 --checkpoint room.ckpt --resume
+      illuminant render turntable.toml --frames all -o turn.####.png
     """
     from illuminant.errors import UsageError
     from illuminant.image import check_output
@@ -325,8 +364,15 @@ def render(
         raise UsageError(f"{scene} is a folder: name a scene file.")
     if pixel is None and sample is not None:
         raise UsageError(f"--sample {sample}: goes with --pixel, whose path it names.")
+    keeper, before = _checkpoints(checkpoint, every, resume)
+    if again and frames is None:
+        raise UsageError("--again: goes with --frames, whose finished ones it renders too.")
+    if frames is not None and checkpoint is not None:
+        raise UsageError(
+            "--checkpoint: goes with one image; --frames passes over the frames that are finished."
+        )
     paths = list(dict.fromkeys(output or [Path(scene.stem + ".png")]))
-    if pixel is None:
+    if pixel is None and frames is None:
         for path in paths:
             check_output(path)
     look = asked_look(display, exposure, transfer, tone, gamut, dither, bits, seed or 0, pipeline)
@@ -376,14 +422,42 @@ def render(
     with _Stop() as stop:
         from illuminant.job import Job
 
-        job = stop.watch(Job(scene, **options))
+        if frames is not None:
+            from illuminant.cli.frames import one_frame, render_frames
+
+            bounds = {"allow_outside": allow_outside, "memory_limit": memory_limit}
+            if pixel is not None:
+                still = one_frame(scene, frames, pixel, allow_outside=allow_outside)
+                job = stop.watch(Job(still, memory_limit=memory_limit, **options))
+                _print_path(job, pixel, sample or 0, json)
+                return
+            saving = {"look": look, "rgb": rgb, "half": half}
+            render_frames(scene, frames, output, options | bounds, saving, again=again, json=json, stop=stop)
+            return
+        job = stop.watch(
+            Job(
+                scene,
+                checkpoint=before,
+                solve_by=done_by.get().solve_by,
+                allow_outside=allow_outside,
+                memory_limit=memory_limit,
+                **options,
+            )
+        )
         if pixel is not None:
             _print_path(job, pixel, sample or 0, json)
         else:
-            _render(job, paths, {"look": look, "rgb": rgb, "half": half}, _again(scene, options), json)
+            _render(
+                job,
+                paths,
+                {"look": look, "rgb": rgb, "half": half},
+                _again(scene, options, allow_outside),
+                json,
+                keeper,
+            )
 
 
-def _again(scene: Path, options: dict[str, Any]) -> str:
+def _again(scene: Path, options: dict[str, Any], allow_outside: bool) -> str:
     """The command that follows a path of this render again, up to the pixel: all that changes random numbers."""
     import shlex
 
@@ -391,10 +465,32 @@ def _again(scene: Path, options: dict[str, Any]) -> str:
     words = {f"--{name}": options[name] for name in names} | {"--develop-for": options["develop_for"]}
     given = [part for word, value in words.items() if value is not None for part in (word, str(value))]
     given += ["--caustics"] if options["caustics"] else []
+    given += ["--allow-outside"] if allow_outside else []
     return shlex.join(["illuminant", "render", str(scene), *given])
 
 
-def _render(job: Job, paths: list[Path], look: dict[str, Any], again: str, json: bool) -> None:
+def _checkpoints(
+    file: Path | None, every: str | None, resume: bool
+) -> tuple[Keeper | None, Checkpoint | None]:
+    """What keeps checkpoints, and the one to go on from."""
+    from illuminant.checkpoint import Keeper, resumed
+    from illuminant.cli.report import warning
+    from illuminant.errors import UsageError
+    from illuminant.settings import duration
+
+    if file is None:
+        for option, given in (("--every", every is not None), ("--resume", resume)):
+            if given:
+                raise UsageError(f"{option}: goes with --checkpoint FILE.")
+        return None, None
+    seconds = 60.0 if every is None else duration(every, "--every")
+    keeper = Keeper(file, seconds, lambda error: warning(f"No checkpoint: {error} The render goes on."))
+    return keeper, resumed(file, resume=resume)
+
+
+def _render(
+    job: Job, paths: list[Path], look: dict[str, Any], again: str, json: bool, keeper: Keeper | None
+) -> None:
     """Do the work, write the files, and say how it went."""
     from illuminant.cli.report import closing, emit_json, note, warning
     from illuminant.errors import Interrupted
@@ -406,7 +502,7 @@ def _render(job: Job, paths: list[Path], look: dict[str, Any], again: str, json:
     layers = settings.layers or settings.lamps or settings.keep_spectra
     if layers and not any(path.suffix.lower() == ".exr" for path in paths):
         warning("A PNG holds no layers: add -o FILE.exr to keep them.")
-    image = _work(job)
+    image = _work(job, keeper)
     interrupted = job.interrupted  # a request that comes later finds the work done
     if interrupted and image.statistics["most_samples"] == 0:
         raise Interrupted("no pixel holds a sample yet, so nothing was written.")
@@ -480,13 +576,29 @@ class _Stop:
             signal.signal(number, handler)
 
 
-def _work(job: Job) -> Image:
+class Here:
+    """Does the work of a job in this process."""
+
+    def solve_by(self, scene: Scene, settings: Settings) -> Any:
+        """Solve for the light between surfaces; None leaves it to the job."""
+        return None
+
+    def follow(self, job: Job, progress: OnProgress | None, keeper: Keeper | None) -> None:
+        """Do it to its end."""
+        for _ in job.passes(progress, keeper):
+            pass
+
+
+done_by: ContextVar[Here] = ContextVar("done_by", default=Here())  # noqa: B039 - it holds nothing that changes
+"""Who does the work of a job: this process, or the farm."""
+
+
+def _work(job: Job, keeper: Keeper | None) -> Image:
     """Render until the settings, or a request to stop, end it."""
     from illuminant.cli.report import progress_bar
 
     with progress_bar(Path(job.source).name) as bar:
-        for _ in job.passes(bar):
-            pass
+        done_by.get().follow(job, bar, keeper)
         return job.image()
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from illuminant.cli.options import Json
+from illuminant.cli.options import AllowOutside, Json
 
 __all__ = ["view"]
 
@@ -32,6 +32,7 @@ def view(
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for what the page keeps.")
     ] = Path("."),
+    allow_outside: AllowOutside = False,
     json: Json = False,
 ) -> None:
     """Walk through a scene in a browser: look, change, measure, keep.
@@ -56,6 +57,7 @@ def view(
         host=host,
         port=port,
         folder=output,
+        allow_outside=allow_outside,
         technique=technique,
         illumination=illumination,
         sampling=sampling,

@@ -47,8 +47,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from illuminant import sources
 from illuminant.core import core
 from illuminant.errors import DataError, UsageError
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -307,6 +309,10 @@ def named(name: str | os.PathLike[str] | Display) -> Display:
     return Display(str(system["name"]), (red, green, blue), _pair(system["white"]), str(system["transfer"]))
 
 
+MOST_BYTES = 10_000_000
+"""The largest description of a display."""
+
+
 @functools.cache
 def _standard(about: tuple[Any, ...]) -> Display:
     return Display(*about)
@@ -320,10 +326,13 @@ def _of_file(path: Path) -> Display:
     import tomllib
 
     try:
-        with open(path, "rb") as file:
-            found = tomllib.load(file)
-    except OSError as error:
-        raise DataError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
+        found = tomllib.loads(sources.read(path, MOST_BYTES).decode("utf-8"))
+    except SourceError as error:
+        raise DataError(f"{path} cannot be read: {error.clause}.") from None
+    except RecursionError:
+        raise DataError(
+            f"{path} is no TOML that can be read: its tables and lists are nested too deeply."
+        ) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise DataError(f"{path} is no TOML: {' '.join(str(error).split()).rstrip('.').lower()}.") from error
     return described(found, str(path))

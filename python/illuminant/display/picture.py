@@ -28,13 +28,15 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from illuminant import machine, output
+from illuminant import machine, output, sources
 from illuminant.display import displays
 from illuminant.errors import ImageError, UsageError
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -231,10 +233,10 @@ class Picture:
         from illuminant.display import run_length
 
         try:
-            with open(path, "rb") as file:
+            with sources.opened(path, sys.maxsize) as file:
                 start = file.read(16)
-        except OSError as error:
-            raise ImageError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
+        except SourceError as error:
+            raise ImageError(f"{path} cannot be read: {error.clause}.") from None
         if start.startswith(b"ILRL") and len(start) == 16:
             width, height = struct.unpack_from(">II", start, 8)
             if width * height <= run_length.MOST_PIXELS:  # what is larger is refused by its reader

@@ -36,9 +36,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
-from illuminant import output
+from illuminant import output, sources
 from illuminant.core import core
 from illuminant.errors import DataError, UsageError
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -270,9 +271,7 @@ def read(path: str | os.PathLike[str]) -> Profile:
         DataError: the file cannot be read, or as `decode` raises it.
     """
     try:
-        with open(path, "rb") as file:
-            content = file.read(LARGEST + 1)
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise DataError(f"the profile cannot be read: {reason}", str(Path(path))) from error
+        content = sources.read(path, LARGEST)
+    except SourceError as error:
+        raise DataError(f"the profile cannot be read: {error.clause}", str(Path(path))) from None
     return decode(content, str(Path(path)))

@@ -45,13 +45,15 @@ from __future__ import annotations
 import math
 import os
 import struct
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from illuminant import output
+from illuminant import output, sources
 from illuminant.errors import ImageError, UsageError
+from illuminant.sources import SourceError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -406,12 +408,12 @@ def read(path: str | os.PathLike[str]) -> RunLengthImage:
     # What no header can stand for need not be read.
     largest = _HEADER.size + 4 * LARGEST_SIDE + 5 * MOST_PIXELS
     try:
-        with open(path, "rb") as file:
+        with sources.opened(path, sys.maxsize) as file:
             # A file of another kind may be of any size.
             start = file.read(_HEADER.size)
             # Reading asks for memory before it knows how much there is to read.
             rest = min(os.fstat(file.fileno()).st_size, largest)
             content = start + (file.read(rest) if start.startswith(_MAGIC) else b"")
-    except OSError as error:
-        raise ImageError(f"{path} cannot be read: {(error.strerror or str(error)).lower()}.") from error
+    except SourceError as error:
+        raise ImageError(f"{path} cannot be read: {error.clause}.") from None
     return decode(content, str(Path(path)))

@@ -16,7 +16,9 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from illuminant import sources
 from illuminant.errors import DataError
+from illuminant.sources import SourceError
 
 __all__ = ["rows", "text_of"]
 
@@ -35,16 +37,9 @@ def text_of(path: str | os.PathLike[str], what: str = "The file") -> str:
     """
     path = Path(path)
     try:
-        with path.open("rb") as file:
-            content = file.read(MAX_BYTES + 1)
-        if len(content) > MAX_BYTES:
-            raise DataError(
-                f"{what} cannot be read: the file is larger than {MAX_BYTES // 1_000_000} MB.", str(path)
-            )
-        return content.decode("utf-8-sig")
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise DataError(f"{what} cannot be read: {reason}.", str(path)) from error
+        return sources.read(path, MAX_BYTES).decode("utf-8-sig")
+    except SourceError as error:
+        raise DataError(f"{what} cannot be read: {error.clause}.", str(path)) from None
     except UnicodeDecodeError as error:
         raise DataError(f"{what} cannot be read: the file is not text in UTF-8.", str(path)) from error
 

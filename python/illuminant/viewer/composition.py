@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+from illuminant.viewer.scale import amount
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -15,8 +17,16 @@ if TYPE_CHECKING:
 
 __all__ = ["MODES", "Composed", "compose", "difference_map", "enlarged", "false_colour", "split"]
 
-MODES = ("picture", "luminance in false colours", "colours out of gamut marked")
+MODES = (
+    "picture",
+    "luminance in false colours",
+    "colours out of gamut marked",
+    "illuminance in false colours",
+)
 MARK = (255, 0, 255)
+
+NO_NUMBER = (72, 72, 72)
+"""Of pixels of a map of illuminance that have none."""
 
 
 @dataclass(frozen=True)
@@ -25,32 +35,48 @@ class Composed:
 
     Attributes:
         codes: (h, w, 3), for the browser, which takes them for sRGB.
-        scale: luminances at the ends of the scale of false colours, cd/m²; None for a picture.
+        scale: quantities at the ends of the scale of false colours; None for a picture.
+        title: of the scale: quantity and unit, and above what the lightest colour stands if something is above.
         outside: fraction of pixels that the gamut's method had to move.
     """
 
     codes: Codes
     scale: tuple[float, float] | None
     outside: float
+    title: str = ""
 
 
-def compose(xyz: NDArray[np.floating[Any]], state: State, mode: str = MODES[0]) -> Composed:
+def compose(
+    xyz: NDArray[np.floating[Any]],
+    state: State,
+    mode: str = MODES[0],
+    *,
+    shining: NDArray[np.bool_] | None = None,
+    lux: NDArray[np.floating[Any]] | None = None,
+    scale: tuple[float, float] | None = None,
+) -> Composed:
     """The code values of an image as a state shows it.
 
     Args:
         xyz: (h, w, 3), absolute.
         state: whose look and exposure count.
         mode: one of `MODES`.
+        shining: (h, w), where lamps are seen: the scale of luminance is for what they light.
+        lux: a map of illuminance, on a grid of its own; without one the picture stands in for it.
+        scale: ends of the scale of false colours, where another picture beside this one has made them.
     """
     import numpy as np
+
+    if mode == MODES[3] and lux is not None:
+        return _scaled(lux, np.isfinite(lux), "illuminance, lx", scale)
+    if mode == MODES[1]:
+        counted = np.ones(xyz.shape[:2], bool) if shining is None or shining.all() else ~shining
+        return _scaled(xyz[..., 1], counted, "luminance, cd/m²", scale)
 
     from illuminant.display.look import show
 
     look = replace(state.look, exposure=state.exposure, bits=8)
     shown = show(xyz, look)
-    if mode == MODES[1]:
-        codes, scale = false_colour(xyz[..., 1])
-        return Composed(codes, scale, shown.outside)
     codes = np.ascontiguousarray(shown.picture.codes).astype(np.uint8)
     if mode == MODES[2]:
         linear = xyz @ np.linalg.inv(look.target.to_xyz_matrix).T * (look.exposure or 1.0)
@@ -59,8 +85,30 @@ def compose(xyz: NDArray[np.floating[Any]], state: State, mode: str = MODES[0]) 
     return Composed(codes, None, shown.outside)
 
 
-def false_colour(luminance: NDArray[np.floating[Any]]) -> tuple[Codes, tuple[float, float]]:
-    """Luminance on a logarithmic scale of three powers of ten below its 99.5th percentile, and the scale's ends.
+def _scaled(
+    values: NDArray[np.floating[Any]],
+    counted: NDArray[np.bool_],
+    title: str,
+    scale: tuple[float, float] | None,
+) -> Composed:
+    """A map in false colours; the lightest also stands for what is above the scale, and the title says so."""
+    codes, (low, high) = false_colour(values, counted, scale)
+    if (values > high).any():
+        title = f"{title}; lightest: > {amount(float(f'{high:.3g}'))}"
+    return Composed(codes, (low, high), 0.0, title)
+
+
+def false_colour(
+    values: NDArray[np.floating[Any]],
+    counted: NDArray[np.bool_] | None = None,
+    scale: tuple[float, float] | None = None,
+) -> tuple[Codes, tuple[float, float]]:
+    """Numbers on a logarithmic scale of three powers of ten below their 99.5th percentile, and the scale's ends.
+
+    Args:
+        values: (h, w); nan is grey.
+        counted: (h, w), those that make the scale; without it all.
+        scale: its ends, if they are given.
 
     Example:
         >>> import numpy as np
@@ -73,9 +121,11 @@ def false_colour(luminance: NDArray[np.floating[Any]]) -> tuple[Codes, tuple[flo
 
     from illuminant.plots.luminance import DECADES, ends
 
-    low, top = ends(luminance)
-    place = np.log10(np.maximum(luminance, low) / low) / DECADES
-    return np.asarray(colormaps["viridis"](np.clip(place, 0, 1), bytes=True)[..., :3]), (low, top)
+    low, top = scale or ends(values if counted is None else values[counted])
+    place = np.log10(np.maximum(values, low) / low) / DECADES
+    codes = np.array(colormaps["viridis"](np.clip(place, 0, 1), bytes=True)[..., :3])
+    codes[np.isnan(values)] = NO_NUMBER
+    return codes, (low, top)
 
 
 def split(left: Codes, right: Codes, fraction: float) -> Codes:

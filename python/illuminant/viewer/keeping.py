@@ -12,8 +12,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from illuminant import output
+from illuminant import output, sources
 from illuminant.errors import Error, UsageError
+from illuminant.scene_file import MAX_BYTES
 from illuminant.viewer.tables import relocate
 
 if TYPE_CHECKING:
@@ -37,6 +38,8 @@ def image(session: Session) -> list[Path]:
     from dataclasses import replace
 
     frame = session.frame
+    if frame is not None and frame.illuminance is not None:
+        raise UsageError("A map of illuminance is no picture: choose another under show first.")
     if frame is None or frame.preview:
         raise UsageError("There is no whole picture yet: wait a moment.")
     look = replace(session.state.look, exposure=session.state.exposure)
@@ -57,7 +60,7 @@ def scene(session: Session) -> list[Path]:
         raise UsageError("Only a scene that was read from a file can be written.")
     import tomlkit
 
-    document: Any = tomlkit.parse(Path(path).read_text(encoding="utf-8"))
+    document: Any = tomlkit.parse(sources.read(path, MAX_BYTES).decode("utf-8-sig"))
     for kind in ("materials", "lights"):
         before, now = session.start.tables.get(kind, {}), session.state.tables.get(kind, {})
         for name, table in now.items():

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from illuminant.job import Job
 from illuminant.settings import SOLVED
+from illuminant.viewer.illuminance import paint
 
 if TYPE_CHECKING:
     import numpy as np
@@ -134,16 +135,8 @@ def _illuminance(state: State, seen: Any, wavelengths: Array, radiance: Array) -
 
     from illuminant.color import spectra_to_xyz
 
-    description = state.scene.description
-    shines = any(thing["name"] == seen["object"] and thing["emission"] for thing in description["objects"])
-    if shines or description["atmosphere"] or description["medium"]:
-        return None
-    surface = next(one["surface"] for one in description["materials"] if one["name"] == seen["material"])
-    if surface["kind"] != "diffuse" or not isinstance(surface["reflectance"], int) or len(wavelengths) < 100:
-        return None
-    curve = description["curves"][surface["reflectance"]]
-    reflectance = np.interp(wavelengths, curve["wavelengths"], curve["values"])
-    if not (reflectance > 0).all():
+    reflectance = paint(state.scene, seen["object"], seen["material"], wavelengths)
+    if reflectance is None or len(wavelengths) < 100:
         return None
     arriving = np.pi * radiance / reflectance
     return float(spectra_to_xyz(arriving, wavelengths, scale="absolute")[..., 1])

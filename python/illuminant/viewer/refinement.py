@@ -23,9 +23,14 @@ from typing import TYPE_CHECKING, Any
 from illuminant.errors import Error, UsageError
 from illuminant.job import Job
 from illuminant.settings import SOLVED
+from illuminant.viewer import heap
 from illuminant.viewer.camera import limited
+from illuminant.viewer.illuminance import maps, obstacle
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from illuminant.image import Image
     from illuminant.radiosity import Solution
     from illuminant.scene import Scene
@@ -40,6 +45,8 @@ FIRST_RATE = 0.15
 MOST_SAMPLES = 4096
 ERROR = 0.002
 """Relative standard error at which a picture is good."""
+REST_S = 5.0
+"""After so long without work memory is given back."""
 GATHERED_SAMPLES = 16
 """Samples of a view of a solution, which shows no noise but at edges."""
 
@@ -53,12 +60,14 @@ class Request:
         camera: of the page, as `Scene.description["camera"]`; its size is that of the whole picture.
         number: later requests have larger ones.
         asked: when, by `time.perf_counter`.
+        illuminance: whether a map of illuminance is wanted in place of the whole picture.
     """
 
     state: State
     camera: Mapping[str, Any]
     number: int
     asked: float
+    illuminance: bool = False
 
 
 @dataclass(frozen=True)
@@ -74,6 +83,7 @@ class Frame:
         mrays: millions of rays a second.
         left: seconds until `MOST_SAMPLES`, if that can be told.
         error: relative standard error of luminance, a mean over the picture; None where it is not estimated.
+        illuminance: map of it, lx (h, w), nan where there is none; its grid is another than that of the image.
     """
 
     request: Request
@@ -84,6 +94,7 @@ class Frame:
     mrays: float
     left: float | None
     error: float | None
+    illuminance: NDArray[np.float64] | None = None
 
 
 class Refiner:
@@ -108,16 +119,18 @@ class Refiner:
         """How many solutions were found anew, not relit; each has elements of its own."""
         self._solved_for: State | None = None
         self._solving: State | None = None
+        self._cancel: Any = None
         self._latest: Request | None = None
         self.relit_seconds: float | None = None
         self._thread = threading.Thread(target=self._loop, name="illuminant refiner", daemon=True)
+        heap.large_blocks_apart()
         self._thread.start()
 
-    def ask(self, state: State, camera: Mapping[str, Any]) -> int:
+    def ask(self, state: State, camera: Mapping[str, Any], *, illuminance: bool = False) -> int:
         """Show this instead of whatever is being rendered; the number of the request."""
         with self._condition:
             self._number += 1
-            self._wanted = Request(state, camera, self._number, clock.perf_counter())
+            self._wanted = Request(state, camera, self._number, clock.perf_counter(), illuminance)
             self._condition.notify()
             return self._number
 
@@ -135,11 +148,15 @@ class Refiner:
         """End the work and the thread."""
         with self._condition:
             self._closed = True
+            if self._cancel is not None:
+                self._cancel.cancel()
             self._condition.notify()
         if threading.current_thread() is not self._thread:
             self._thread.join(timeout=10.0)
         # Pages and refiners know each other, so Python would free them late, and it knows nothing of the core's memory.
+        self._deliver, self._say = _nothing, _nothing
         self._kept = self._bending = self._solved_for = self._latest = self._wanted = self.solution = None
+        heap.give_back()
 
     def _current(self, request: Request) -> bool:
         return not self._closed and request.number == self._number
@@ -148,7 +165,8 @@ class Refiner:
         while True:
             with self._condition:
                 while self._wanted is None and not self._closed:
-                    self._condition.wait()
+                    if not self._condition.wait(REST_S):
+                        heap.give_back()
                 if self._closed:
                     return
                 request, self._wanted = self._wanted, None
@@ -163,8 +181,12 @@ class Refiner:
 
     def _follow(self, request: Request) -> None:
         """Render what is asked for until it is good, or until something else is asked for."""
-        self._preview(request)
+        preview = self._preview(request)
         if not self._current(request):
+            return
+        heap.give_back()
+        if request.illuminance and preview is not None:
+            self._map(request, preview)
             return
         job = self._job(request)
         if job is None or not self._current(request):
@@ -178,7 +200,18 @@ class Refiner:
 
     # --- the picture of few pixels -------------------------------------------------------------------------------
 
-    def _preview(self, request: Request) -> None:
+    def _map(self, request: Request, preview: Frame) -> None:
+        """Deliver maps of illuminance, finer and finer, with the small picture."""
+        state = request.state
+        if reason := obstacle(state):
+            self._say(reason, True)
+            return
+        if state.technique in SOLVED and (not self._ready(state) or not self._current(request)):
+            return
+        for lux in maps(state, request.camera, self.solution_for(state), lambda: self._current(request)):
+            self._deliver(replace(preview, illuminance=lux))
+
+    def _preview(self, request: Request) -> Frame | None:
         state = request.state
         width, height = request.camera["size"]
         size = limited(width, height, max(1000, int(self._rate * 1e6 * PREVIEW_SECONDS)))
@@ -196,10 +229,12 @@ class Refiner:
             like=kept,
             solution=self._core_solution(state) if known else None,
         )
-        start = clock.perf_counter()
+        start, found = clock.perf_counter(), None
         for samples in job.passes(lambda _: self._current(request)):
             self._rate = size[0] * size[1] / max(clock.perf_counter() - start, 1e-4) / 1e6
-            self._deliver(self._frame(request, job, samples, preview=True))
+            found = self._frame(request, job, samples, preview=True)
+            self._deliver(found)
+        return found
 
     def _undispersed(self, state: State) -> Scene:
         """The scene with glass that bends all wavelengths alike."""
@@ -273,16 +308,22 @@ class Refiner:
 
     def _solve(self, state: State) -> bool:
         """Solve for a state on a thread of its own, so that the camera can move on; False, for it is not there yet."""
-        if self._solving is None:
-            self._solving = state
+        solving = self._solving
+        if solving is not None and not _same(replace(solving, scene=state.scene), state, "elements"):
+            self._cancel.cancel()  # what it finds could not be relit for this state, which begins when it has ended
+        if solving is None:
+            from illuminant.core import core
+
+            self._solving, self._cancel = state, core().Cancel()
             self._say(f"Solving for the light between about {state.elements} elements …", False)
             threading.Thread(
-                target=self._solver, args=(state,), name="illuminant solver", daemon=True
+                target=self._solver, args=(state, self._cancel), name="illuminant solver", daemon=True
             ).start()
         return False
 
-    def _solver(self, state: State) -> None:
+    def _solver(self, state: State, cancel: Any) -> None:
         from illuminant import radiosity
+        from illuminant.core import core
 
         options: dict[str, Any] = (
             {} if state.technique == "specular-radiosity" else {"elements": state.elements}
@@ -293,8 +334,12 @@ class Refiner:
                 technique=state.technique,
                 illumination=state.illumination,
                 sampling=state.sampling,
+                cancel=cancel,
                 **options,
             )
+        except core().Cancelled:
+            self._solved_or_not(None, state)
+            return
         except Exception as error:
             self._say(str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}", True)
             self._solved_or_not(None, state)
@@ -334,6 +379,10 @@ class Refiner:
             left=None if preview else seconds * (limit / samples - 1.0),
             error=None if preview or samples < 4 or job.settings.error is None else _error(job),
         )
+
+
+def _nothing(*_: object) -> None:
+    """What a closed refiner delivers and says."""
 
 
 def _error(job: Job) -> float:

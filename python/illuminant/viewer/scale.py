@@ -14,11 +14,22 @@ if TYPE_CHECKING:
 
     Codes = NDArray[np.uint8]
 
-__all__ = ["marks", "with_scale"]
+__all__ = ["amount", "marks", "with_scale"]
 
 BAR = (240, 12)
 EDGE = 14
 LETTERS = 12
+
+
+def amount(value: float) -> str:
+    """A quantity with four digits, and no power of ten where people write none.
+
+    Example:
+        >>> amount(23451.7), amount(1540.2), amount(0.01234), amount(3e-9)
+        ('23,450', '1,540', '0.01234', '3e-09')
+    """
+    rounded = float(f"{value:.4g}")
+    return f"{rounded:,.0f}" if 1000.0 <= abs(rounded) < 1e9 else f"{value:.4g}"
 
 
 def marks(low: float, high: float, *, logarithmic: bool) -> list[tuple[float, str]]:

@@ -52,6 +52,7 @@ class Viewer:
         host: str = "127.0.0.1",
         port: int = 8080,
         folder: str | os.PathLike[str] = ".",
+        allow_outside: bool = False,
         **choices: Any,
     ) -> None:
         if not 0 <= port <= 65535:
@@ -60,7 +61,8 @@ class Viewer:
         self.problem: str | None = None
         self.state: State | None = None
         try:
-            self.state = State.of(scene if not isinstance(scene, os.PathLike) else Path(scene), **choices)
+            named = scene if not isinstance(scene, os.PathLike) else Path(scene)
+            self.state = State.of(named, allow_outside=allow_outside, **choices)
         except (SceneError, DataError) as error:
             if not isinstance(scene, (str, os.PathLike)) or not Path(scene).is_file():
                 raise

@@ -12,12 +12,14 @@ from illuminant.viewer.camera import limited, scene_camera, vertical_rad
 from illuminant.viewer.composition import MODES, compose, difference_map, enlarged, split
 from illuminant.viewer.refinement import Frame, Refiner
 from illuminant.viewer.scale import with_scale
+from illuminant.viewer.sending import Sender, background, encoded
 from illuminant.viewer.wireframe import WIRES, depth, edges
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from illuminant.viewer.composition import Composed
     from illuminant.viewer.reading import Reading
     from illuminant.viewer.state import State
 
@@ -25,6 +27,8 @@ __all__ = ["Session"]
 
 MOST_PIXELS = 1280 * 800
 """Of a picture; the page enlarges it to the window."""
+
+ILLUMINANCE = MODES[3]
 
 WIRE_COLOUR = (70, 160, 255)
 
@@ -47,6 +51,10 @@ class Session:
         self.mode = MODES[0]
         self.frame: Frame | None = None
         self.sent: Frame | None = None
+        self.codes: NDArray[np.uint8] | None = None
+        """What was sent last, as the browser shows it."""
+        self.composition: Composed | None = None
+        """The latest frame in its look, or in false colours."""
         self.held: State | None = None
         self.held_frame: Frame | None = None
         self.divider = 0.5
@@ -58,6 +66,7 @@ class Session:
         self._exposure_from = 0 if state.look.exposure is None else ENOUGH_SAMPLES
         self.lock = threading.RLock()
         self._shown_camera: Any = None
+        self._sender = Sender(self._send, lambda text: self.say(text, True))
         self.refiner = Refiner(self._deliver, self.say)
         self._second: Refiner | None = None
         self.last_reading: Reading | None = None
@@ -126,15 +135,28 @@ class Session:
         """Show the same light in another look."""
         with self.lock:
             self.state = state
+        self.panels.forgive()
         self.show()
+
+    def choose_mode(self, mode: str, state: State) -> None:
+        """Show the picture, false colours or marks, in a look; illuminance is found for the purpose."""
+        with self.lock:
+            again = mode != self.mode and ILLUMINANCE in (mode, self.mode)
+            self.mode = mode
+        if again:
+            self.change(state)
+        else:
+            self.look_at(state)
 
     def ask(self) -> None:
         """Render what is chosen, from where the page's camera stands."""
         with self.lock:
+            self.panels.forgive()
             camera = self._shown_camera = self.camera()
-            self.refiner.ask(self.state, camera)
+            lux = self.mode == ILLUMINANCE
+            self.refiner.ask(self.state, camera, illuminance=lux)
             if self.held is not None and self._second is not None:
-                self._second.ask(self.held, camera)
+                self._second.ask(self.held, camera, illuminance=lux)
 
     def hold(self, wanted: bool) -> None:
         """Hold the present setting, to be seen beside what is chosen from now on; or let it go."""
@@ -162,20 +184,24 @@ class Session:
         self.show()
 
     def show(self) -> None:
-        """Send the picture as it is now, with all that is drawn into it."""
+        """Send the picture as it is now, with all that is drawn into it, soon."""
+        self._sender.ask()
+
+    def _send(self) -> None:
+        """Make of the latest frame what the page shows, and send it."""
         with self.lock:
             frame, other, state = self.frame, self.held_frame, self.state
             if frame is None:
                 return
-            codes = self.composed(frame, state)
-            if other is not None and self.held is not None:
-                held = replace(self.held, look=state.look, stops=state.stops)
-                codes = self._beside(other, held, frame, codes)
-            wired = (self.wires != WIRES[0] or self._lines is not None) and not frame.preview
-            far = self._wire(frame) if wired else None
-            # Sent under the lock, so that an older picture never comes last.
-            self.client.scene.set_background_image(codes, format="png", depth=far)
-            self.sent = frame
+            held = None if self.held is None else replace(self.held, look=state.look, stops=state.stops)
+        # Without the lock, for it takes a while; this thread alone sends, so an older picture never comes last.
+        codes = self.composed(frame, state)
+        if other is not None and held is not None:
+            codes = self._beside(other, held, frame, codes)
+        wired = (self.wires != WIRES[0] or self._lines is not None) and not frame.preview
+        far = self._wire(frame) if wired else None
+        background(self.client, encoded(codes), far)
+        self.codes, self.sent = codes, frame
 
     def _beside(self, other: Frame, held: State, frame: Frame, codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """The held setting at the left and the chosen one at the right, or the map of their difference."""
@@ -186,19 +212,28 @@ class Session:
             top = 10.0 if self.map == "ΔE00" else 1.0
             return with_scale(codes, "magma", 0.0, top, self.map, logarithmic=False)
         self.panels.compare.mean("none", 0.0)
-        return split(self.composed(other, held), codes, self.divider)
+        # One scale for both sides, or equal colours would not be equal light.
+        scale = None if self.composition is None else self.composition.scale
+        return split(self.composed(other, held, scale), codes, self.divider)
 
-    def composed(self, frame: Frame, state: State) -> NDArray[np.uint8]:
-        """The codes of a frame."""
-        made = compose(frame.image.xyz, state, self.mode)
+    def composed(
+        self, frame: Frame, state: State, scale: tuple[float, float] | None = None
+    ) -> NDArray[np.uint8]:
+        """The codes of a frame, in false colours on its own scale or a given one."""
+        import numpy as np
+
+        emission = frame.image.layers.get("emission")
+        shining = None if emission is None else np.asarray((emission > 0).any(axis=2))
+        made = compose(frame.image.xyz, state, self.mode, shining=shining, lux=frame.illuminance, scale=scale)
         if frame is self.frame:
+            self.composition = made
             self.panels.facts(made)
         if made.scale is None:
             return made.codes
         # A preview is enlarged first, or the page would enlarge the numbers with it.
         width, height = frame.request.camera["size"]
         codes = enlarged(made.codes, height, width)
-        return with_scale(codes, "viridis", *made.scale, "luminance, cd/m²", logarithmic=True)
+        return with_scale(codes, "viridis", *made.scale, made.title, logarithmic=True)
 
     # --- wireframe -----------------------------------------------------------------------------------------------
 
@@ -261,6 +296,7 @@ class Session:
     def close(self) -> None:
         """End all work of the page."""
         self.refiner.close()
+        self._sender.close()
         if self._second is not None:
             self._second.close()
-        self.frame = self.sent = self.held_frame = self._depth = None
+        self.frame = self.sent = self.codes = self.composition = self.held_frame = self._depth = None

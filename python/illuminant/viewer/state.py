@@ -14,8 +14,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from illuminant import sources
 from illuminant.display.look import Look
 from illuminant.errors import SceneError, UsageError
+from illuminant.scene_file import MAX_BYTES
+from illuminant.sources import SourceError
 from illuminant.viewer.tables import relocate
 
 if TYPE_CHECKING:
@@ -50,11 +53,12 @@ class State:
     stops: float = 0.0
 
     @classmethod
-    def of(cls, scene: Scene | str | Path, **choices: Any) -> State:
+    def of(cls, scene: Scene | str | Path, *, allow_outside: bool = False, **choices: Any) -> State:
         """The state at the start.
 
         Args:
             scene: a `Scene`, or the path of a scene file.
+            allow_outside: whether the files that it names may lie outside its folder.
             choices: attributes that are not the defaults; else the scene's `[render]` counts.
 
         Raises:
@@ -63,7 +67,7 @@ class State:
         """
         from illuminant.scene import Scene
 
-        loaded = scene if isinstance(scene, Scene) else Scene.load(scene)
+        loaded = scene if isinstance(scene, Scene) else Scene.load(scene, allow_outside=allow_outside)
         defaults = {
             key: loaded.render_defaults[key]
             for key in ("technique", "illumination", "sampling")
@@ -136,7 +140,9 @@ def _tables(path: str | None) -> dict[str, Any]:
     if not path or Path(path).suffix != ".toml":
         return {}
     try:
-        tables = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        tables = tomllib.loads(sources.read(path, MAX_BYTES).decode("utf-8-sig"))
+    except SourceError as error:
+        raise SceneError(f"{path}: {error.message}") from None
     except (OSError, ValueError) as error:
         raise SceneError(f"{path}: {error}") from None
     # `Scene.replace` knows no folder that names of files are relative to.

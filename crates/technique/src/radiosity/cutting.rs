@@ -5,7 +5,7 @@ use super::reflectance::{Counted, is_clear};
 use super::settings::RadiositySettings;
 use crate::lanes::Pass;
 use illuminant_illumination::{IlluminationModel, Prepare, Surface};
-use illuminant_radiosity::{Elements, Part, Refinement, Subdivision, reached};
+use illuminant_radiosity::{Cancel, Cancelled, Elements, Part, Refinement, Subdivision, reached};
 use illuminant_scene::Scene;
 use rayon::prelude::*;
 
@@ -35,12 +35,13 @@ fn refined<const N: usize, M: IlluminationModel<N> + Prepare>(
     threshold: f64,
     (parts, patch, lit): (&[Part], f64, &dyn Fn(usize, bool) -> bool),
     (count, most): (u32, usize),
-) -> Elements {
+    cancel: &Cancel,
+) -> Result<Elements, Cancelled> {
     let smallest = elements.all.iter().map(|e| e.area).fold(0.0, f64::max) / 64.0;
     let lamps: Vec<usize> = (0..scene.lamps.len()).collect();
     for _ in 0..ROUNDS {
         let all = (&lamps[..], lamps.len());
-        let light = of_sides(scene, &elements, &passes[..1], all, N, count);
+        let light = of_sides(scene, &elements, &passes[..1], all, N, count, cancel)?;
         let width = N * lamps.len();
         // Lamps of the scene's own strength, so that weak ones do not matter.
         let strength: Vec<f32> = scene.lamps.iter().map(|l| l.spectrum.area(scene.range) as f32).collect();
@@ -85,7 +86,7 @@ fn refined<const N: usize, M: IlluminationModel<N> + Prepare>(
         cut.into_iter().for_each(|node| subdivision.bisect(node));
         elements = Elements::of(&scene.geometry, subdivision, parts, patch, lit);
     }
-    elements
+    Ok(elements)
 }
 
 /// The elements of a scene.
@@ -93,6 +94,7 @@ pub(super) fn cut<const N: usize, M: IlluminationModel<N> + Prepare>(
     scene: &Scene,
     (told, counted): (&RadiositySettings, Counted),
     passes: &[Pass<N, M>],
+    cancel: &Cancel,
 ) -> Result<Elements, String> {
     let (geometry, lamps) = (&*scene.geometry, scene.lamps.len());
     let parts = parts(scene, counted);
@@ -110,16 +112,16 @@ pub(super) fn cut<const N: usize, M: IlluminationModel<N> + Prepare>(
     let light: Vec<Vec<f32>> = (0..coarse.sides.len() as u32)
         .into_par_iter()
         .map(|side| {
+            cancel.check()?;
             let of = |lamp| direct::mean(scene, &coarse, &passes[0], lamp, side, 4);
-            (0..lamps).map(|lamp| of(lamp).0.iter().sum()).collect()
+            Ok((0..lamps).map(|lamp| of(lamp).0.iter().sum()).collect())
         })
-        .collect();
+        .collect::<Result<_, Cancelled>>()?;
     let largest: Vec<f32> =
         (0..lamps).map(|lamp| light.iter().map(|row| row[lamp]).fold(0.0, f32::max)).collect();
     // What is less than this is the rounding of a lamp that lies in the plane of a side.
-    let lit = reached(geometry, &coarse, &sheets, &|side| {
-        (0..lamps).any(|lamp| light[side as usize][lamp] > 1e-5 * largest[lamp])
-    });
+    let is_lit = |side: u32| (0..lamps).any(|lamp| light[side as usize][lamp] > 1e-5 * largest[lamp]);
+    let lit = reached(geometry, &coarse, &sheets, &is_lit, cancel)?;
     let lit = |object: usize, back: bool| lit[object][usize::from(back)];
     // A cut halves, so elements end between half the limit and the limit: three quarters of it on average.
     let element = total / (0.75 * f64::from(told.elements));
@@ -127,8 +129,9 @@ pub(super) fn cut<const N: usize, M: IlluminationModel<N> + Prepare>(
     let mut elements = Elements::new(geometry, &parts, Refinement { element, patch }, &lit);
     if let Some(threshold) = told.adaptive {
         let most = 16 * told.elements as usize;
-        elements =
-            refined(scene, elements, passes, threshold, (&parts, patch, &lit), (told.light_samples, most));
+        let (kinds, counts) =
+            ((&parts[..], patch, &lit as &dyn Fn(usize, bool) -> bool), (told.light_samples, most));
+        elements = refined(scene, elements, passes, threshold, kinds, counts, cancel)?;
     }
     if elements.sides.is_empty() {
         return Err("no light reaches any surface that is diffuse".into());

@@ -6,7 +6,7 @@ use glam::Vec3;
 use illuminant_illumination::{IlluminationModel, Prepare};
 use illuminant_optics::frame::Frame;
 use illuminant_optics::hemisphere;
-use illuminant_radiosity::{Elements, Kronecker, Place};
+use illuminant_radiosity::{Cancel, Cancelled, Elements, Kronecker, Place};
 use illuminant_sampling::Lanes;
 use illuminant_scene::{LampForm, LampSample, Ray, Scene, SurfacePoint};
 use rayon::prelude::*;
@@ -76,10 +76,12 @@ pub(super) fn of_sides<const N: usize, M: IlluminationModel<N> + Prepare>(
     (column_of, columns): (&[usize], usize),
     samples: usize,
     count: u32,
-) -> Vec<f32> {
+    cancel: &Cancel,
+) -> Result<Vec<f32>, Cancelled> {
     let width = columns * samples;
     let mut found = vec![0f32; elements.sides.len() * width];
-    found.par_chunks_mut(width.max(1)).enumerate().for_each(|(side, row)| {
+    found.par_chunks_mut(width.max(1)).enumerate().try_for_each(|(side, row)| {
+        cancel.check()?;
         for pass in passes {
             for (lamp, &column) in column_of.iter().enumerate() {
                 let light = mean(scene, elements, pass, lamp, side as u32, count);
@@ -89,6 +91,7 @@ pub(super) fn of_sides<const N: usize, M: IlluminationModel<N> + Prepare>(
                 }
             }
         }
-    });
-    found
+        Ok(())
+    })?;
+    Ok(found)
 }

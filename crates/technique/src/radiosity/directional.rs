@@ -14,7 +14,7 @@ use crate::settings::Settings;
 use glam::Vec3;
 use illuminant_illumination::{Illumination, IlluminationModel, Incidence, Prepare};
 use illuminant_optics::frame::Frame;
-use illuminant_radiosity::{Elements, Kronecker, Points};
+use illuminant_radiosity::{Cancel, Cancelled, Elements, Kronecker, Points};
 use illuminant_sampling::{Basis, Lanes};
 use illuminant_scene::{Hit, LampForm, Scene, SurfacePoint};
 use rayon::prelude::*;
@@ -165,6 +165,7 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
     basis: &dyn Basis,
     elements: &Arc<Elements>,
     points: &Arc<Points>,
+    cancel: &Cancel,
 ) -> Result<(Directional, Quality), String> {
     let told = &settings.radiosity;
     let cube = GlobalCube::new(told.cube);
@@ -175,7 +176,7 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
     let of_side = |side: u32| scene.objects[elements.element_of(side).object as usize].material;
     let glossy = (0..elements.sides.len() as u32).filter(|&s| is_glossy(&passes[0].materials[of_side(s)]));
     check(elements, cube, groups * basis.len(), glossy.count())?;
-    let seen = look(scene, elements, cube);
+    let seen = look(scene, elements, cube, cancel)?;
     let mut found = Directional {
         elements: Arc::clone(elements),
         points: Arc::clone(points),
@@ -186,8 +187,8 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
     };
     let mut quality = Quality::default();
     for pass in &passes {
-        let solver = Solver { scene, elements, cube, pass, groups, group_of: &group_of, seen: &seen };
-        solver.solve(settings, &facing, &mut found, &mut quality);
+        let solver = Solver { scene, elements, cube, pass, groups, group_of: &group_of, seen: &seen, cancel };
+        solver.solve(settings, &facing, &mut found, &mut quality)?;
     }
     Ok((found, quality))
 }
@@ -213,9 +214,15 @@ fn facing(scene: &Scene, elements: &Elements) -> Vec<Facing> {
 }
 
 /// The side that each side sees through each cell: the visibility buffers.
-fn look(scene: &Scene, elements: &Elements, cube: GlobalCube) -> Vec<u32> {
+fn look(
+    scene: &Scene,
+    elements: &Elements,
+    cube: GlobalCube,
+    cancel: &Cancel,
+) -> Result<Vec<u32>, Cancelled> {
     let mut seen = vec![NOTHING; elements.sides.len() * cube.len()];
-    seen.par_chunks_mut(cube.len()).enumerate().for_each(|(side, cells)| {
+    seen.par_chunks_mut(cube.len()).enumerate().try_for_each(|(side, cells)| {
+        cancel.check()?;
         let sequence = Kronecker::<4>::new(side as u64 ^ 0x6375_6265);
         for (cell, seen) in cells.iter_mut().enumerate() {
             let [a, b, u, v] = sequence.point(cell as u64);
@@ -229,8 +236,9 @@ fn look(scene: &Scene, elements: &Elements, cube: GlobalCube) -> Vec<u32> {
                 *seen = elements.side_at(&ray, &hit).unwrap_or(NOTHING);
             }
         }
-    });
-    seen
+        Ok(())
+    })?;
+    Ok(seen)
 }
 
 struct Solver<'a, M> {
@@ -241,24 +249,32 @@ struct Solver<'a, M> {
     groups: usize,
     group_of: &'a [usize],
     seen: &'a [u32],
+    cancel: &'a Cancel,
 }
 
 impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
-    fn solve(&self, settings: &Settings, facing: &[Facing], to: &mut Directional, quality: &mut Quality) {
+    fn solve(
+        &self,
+        settings: &Settings,
+        facing: &[Facing],
+        to: &mut Directional,
+        quality: &mut Quality,
+    ) -> Result<(), Cancelled> {
         let (cells, groups) = (self.cube.len(), self.groups);
         let sides = self.elements.sides.len();
         let told = &settings.radiosity;
         let lamps: Vec<Vec<Lanes<LANES>>> = (0..sides as u32)
             .into_par_iter()
             .map(|side| {
+                self.cancel.check()?;
                 let mut sums = vec![Lanes::default(); groups];
                 for (lamp, &group) in self.group_of.iter().enumerate() {
                     let count = told.light_samples;
                     sums[group] += direct::mean(self.scene, self.elements, self.pass, lamp, side, count);
                 }
-                sums
+                Ok(sums)
             })
-            .collect();
+            .collect::<Result<_, Cancelled>>()?;
         let diffuse = of_materials(self.scene, self.pass, Counted::Diffuse);
         let mut sent = vec![Lanes::<LANES>::default(); sides * cells * groups];
         let kept: Vec<Option<Operator>> = if self.memory_of_operators(facing) <= MOST_KEPT {
@@ -276,12 +292,13 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
                     let drawn_again = kept.is_empty().then(|| self.operator(number, facing)).flatten();
                     let operator = kept.get(number).map_or(drawn_again.as_ref(), Option::as_ref);
                     let of = |&side: &u32| {
+                        self.cancel.check()?;
                         let (new, creation) = self.reflect(side, facing, operator, &sent, &lamps, &diffuse);
-                        (side, new, creation)
+                        Ok((side, new, creation))
                     };
                     facing.sides.par_iter().map(of).collect()
                 })
-                .collect();
+                .collect::<Result<_, Cancelled>>()?;
             let (mut changed, mut all) = (0.0f64, 0.0f64);
             creation = 0.0;
             for sides in results {
@@ -312,6 +329,7 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
         for (lanes, values) in sent.iter().zip(to.sent.chunks_mut(stride)) {
             values[own.clone()].copy_from_slice(&lanes.0[..own.len()]);
         }
+        Ok(())
     }
 
     fn incidence(&self, material: usize, to_viewer: Vec3) -> Incidence<'_, LANES> {
@@ -376,6 +394,7 @@ impl<M: IlluminationModel<LANES> + Prepare> Solver<'_, M> {
             }
             found
         };
+        let of = |cell| if self.cancel.is_cancelled() { Drawn::new() } else { of(cell) };
         let drawn = (0..self.cube.len()).into_par_iter().map(of).collect();
         Some(Operator { drawn, albedo: self.albedo(facing.material) })
     }

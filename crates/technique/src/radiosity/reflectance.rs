@@ -7,7 +7,7 @@ use crate::sequence::Sequence;
 use glam::Vec3;
 use illuminant_illumination::{IlluminationModel, Incidence, Prepare, Surface};
 use illuminant_optics::hemisphere;
-use illuminant_radiosity::{Elements, Kronecker};
+use illuminant_radiosity::{Cancel, Cancelled, Elements, Kronecker};
 use illuminant_sampling::Lanes;
 use illuminant_scene::{Ray, Scene};
 use rayon::prelude::*;
@@ -145,10 +145,12 @@ pub(super) fn of_sides<const N: usize, M: IlluminationModel<N> + Prepare>(
     passes: &[Pass<N, M>],
     samples: usize,
     counted: Counted,
-) -> (Vec<f32>, Vec<f32>) {
+    cancel: &Cancel,
+) -> Result<(Vec<f32>, Vec<f32>), Cancelled> {
     let of_materials: Vec<_> = passes.iter().map(|pass| of_materials(scene, pass, counted)).collect();
     let mut found = vec![0f32; 2 * elements.sides.len() * samples];
-    found.par_chunks_mut(2 * samples).enumerate().for_each(|(side, rows)| {
+    found.par_chunks_mut(2 * samples).enumerate().try_for_each(|(side, rows)| {
+        cancel.check()?;
         let object = elements.element_of(side as u32).object;
         let material = scene.objects[object as usize].material;
         let (reflected, transmitted) = rows.split_at_mut(samples);
@@ -162,12 +164,13 @@ pub(super) fn of_sides<const N: usize, M: IlluminationModel<N> + Prepare>(
             reflected[pass.samples.clone()].copy_from_slice(&r.0[..pass.samples.len()]);
             transmitted[pass.samples.clone()].copy_from_slice(&t.0[..pass.samples.len()]);
         }
-    });
+        Ok(())
+    })?;
     let rows = found.chunks(samples);
     let reflected: Vec<f32> = rows.clone().step_by(2).flatten().copied().collect();
     let mut transmitted: Vec<f32> = rows.skip(1).step_by(2).flatten().copied().collect();
     if transmitted.iter().all(|t| *t == 0.0) {
         transmitted.clear();
     }
-    (reflected, transmitted)
+    Ok((reflected, transmitted))
 }

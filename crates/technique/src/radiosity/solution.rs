@@ -11,7 +11,8 @@ use crate::passes::{Light, passes_of};
 use crate::settings::{Settings, Technique};
 use illuminant_illumination::{General, Historic, Illumination, IlluminationModel, Prepare};
 use illuminant_radiosity::{
-    Elements, FormFactors, Hemicube, Looking, Method, Points, Problem, Sparse, SpectralRows,
+    Cancel, Cancelled, Elements, FormFactors, Hemicube, Looking, Method, Points, Problem, Sparse,
+    SpectralRows,
 };
 use illuminant_sampling::{Basis, Role};
 use illuminant_scene::Scene;
@@ -108,7 +109,7 @@ pub struct RadiosityParts {
 }
 
 /// Whether what surfaces themselves reflect counts as diffuse, for a technique.
-fn counted(settings: &Settings) -> Counted {
+pub(super) fn counted(settings: &Settings) -> Counted {
     if settings.technique == Technique::Hybrid.to_string() { Counted::Diffuse } else { Counted::All }
 }
 
@@ -122,6 +123,19 @@ macro_rules! with_model {
         }
     }};
 }
+pub(super) use with_model;
+
+/// What of a solution is known already.
+#[derive(Clone, Debug, Default)]
+pub enum Given {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// All rows of form factors ([`RowFinder`](super::RowFinder)), for `radiosity`.
+    Rows(Sparse),
+    /// All of it.
+    All(Box<RadiosityParts>),
+}
 
 impl RadiositySolution {
     /// Solves for the light between the surfaces of a scene, in the samples of a basis.
@@ -129,7 +143,22 @@ impl RadiositySolution {
     /// # Errors
     /// A sentence on what cannot be.
     pub fn new(scene: &Scene, settings: &Settings, basis: Arc<dyn Basis>) -> Result<Self, String> {
-        with_model!(settings, solve(scene, settings, basis, None))
+        Self::new_unless_cancelled(scene, settings, basis, Given::Nothing, &Cancel::default())
+    }
+
+    /// The same, of which something may be known already, and which stops within a few rows of form factors or steps of the solver when
+    /// it is told to.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; what is cancelled has no result.
+    pub fn new_unless_cancelled(
+        scene: &Scene,
+        settings: &Settings,
+        basis: Arc<dyn Basis>,
+        given: Given,
+        cancel: &Cancel,
+    ) -> Result<Self, String> {
+        with_model!(settings, solve(scene, settings, basis, given, cancel))
     }
 
     /// The solution of the same surfaces with other paints: the form factors and the light of lamps are kept, and the equations solved again.
@@ -138,7 +167,20 @@ impl RadiositySolution {
     /// # Errors
     /// A sentence on what cannot be.
     pub fn repainted(&self, scene: &Scene, settings: &Settings) -> Result<Self, String> {
-        with_model!(settings, repaint(self, scene, settings))
+        self.repainted_unless_cancelled(scene, settings, &Cancel::default())
+    }
+
+    /// The same, which stops when it is told to.
+    ///
+    /// # Errors
+    /// As [`Self::repainted`]; what is cancelled has no result.
+    pub fn repainted_unless_cancelled(
+        &self,
+        scene: &Scene,
+        settings: &Settings,
+        cancel: &Cancel,
+    ) -> Result<Self, String> {
+        with_model!(settings, repaint(self, scene, settings, cancel))
     }
 
     /// The solution after objects have moved (Baum et al. 1986): only rows of form factors that see a moved object, where it was or where
@@ -152,7 +194,21 @@ impl RadiositySolution {
         settings: &Settings,
         objects: &[usize],
     ) -> Result<(Self, usize), String> {
-        with_model!(settings, shift(self, scene, settings, objects))
+        self.moved_unless_cancelled(scene, settings, objects, &Cancel::default())
+    }
+
+    /// The same, which stops when it is told to.
+    ///
+    /// # Errors
+    /// As [`Self::moved`]; what is cancelled has no result.
+    pub fn moved_unless_cancelled(
+        &self,
+        scene: &Scene,
+        settings: &Settings,
+        objects: &[usize],
+        cancel: &Cancel,
+    ) -> Result<(Self, usize), String> {
+        with_model!(settings, shift(self, scene, settings, objects, cancel))
     }
 
     /// A solution from its parts, for the scene and settings that it was made for.
@@ -165,7 +221,8 @@ impl RadiositySolution {
         basis: Arc<dyn Basis>,
         parts: RadiosityParts,
     ) -> Result<Self, String> {
-        with_model!(settings, solve(scene, settings, basis, Some(parts)))
+        let (given, cancel) = (Given::All(Box::new(parts)), Cancel::default());
+        with_model!(settings, solve(scene, settings, basis, given, &cancel))
     }
 
     /// Of each column of lamps the light in every sample by which its irradiance is multiplied, if the lamps are those of `scene`.
@@ -237,7 +294,8 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
     scene: &Scene,
     settings: &Settings,
     basis: Arc<dyn Basis>,
-    parts: Option<RadiosityParts>,
+    given: Given,
+    cancel: &Cancel,
 ) -> Result<RadiositySolution, String> {
     let told = &settings.radiosity;
     let (method, solver) = told.checked()?;
@@ -245,7 +303,7 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
     let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
     let (passes, column_of, columns) = prepared::<M>(illumination, scene, &*basis);
     let counted = counted(settings);
-    let elements = cut(scene, (told, counted), &passes)?;
+    let elements = cut(scene, (told, counted), &passes, cancel)?;
     let points = Points::new(&scene.geometry, &elements);
     let (samples, sides) = (basis.len(), elements.sides.len());
     let report = RadiosityReport {
@@ -276,14 +334,21 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
     found.report.seconds[0] = lap();
     if settings.technique == Technique::SpecularRadiosity.to_string() {
         let (elements, points) = (Arc::clone(&found.elements), Arc::clone(&found.points));
-        let (sent, quality) =
-            directional::solve::<M>(illumination, scene, settings, &*found.basis, &elements, &points)?;
+        let (sent, quality) = directional::solve::<M>(
+            illumination,
+            scene,
+            settings,
+            &*found.basis,
+            &elements,
+            &points,
+            cancel,
+        )?;
         found.directional = Some(Arc::new(sent));
         (found.report.history, found.report.creation) = (quality.history, quality.creation);
         found.report.seconds[3] = lap();
         return Ok(found);
     }
-    if let Some(parts) = parts {
+    if let Given::All(parts) = given {
         let fits = parts.rows.height() == sides
             && parts.rows.width == found.elements.patches.len()
             && parts.direct.len() == sides * columns * samples
@@ -308,18 +373,28 @@ pub(super) fn solve<M: IlluminationModel<LANES> + Prepare>(
     } else {
         let of_lamps = (&found.column_of[..], columns);
         found.direct =
-            direct::of_sides(scene, &found.elements, &passes, of_lamps, samples, told.light_samples);
+            direct::of_sides(scene, &found.elements, &passes, of_lamps, samples, told.light_samples, cancel)?;
         (found.reflectance, found.transmittance) =
-            reflectance::of_sides(scene, &found.elements, &passes, samples, counted);
+            reflectance::of_sides(scene, &found.elements, &passes, samples, counted, cancel)?;
         found.report.seconds[1] = lap();
         match counted {
             Counted::All => {
-                found.factors = Arc::new(FormFactors::new(&scene.geometry, &found.elements, method));
+                let (geometry, elements) = (&*scene.geometry, &found.elements);
+                found.factors = Arc::new(match given {
+                    Given::Rows(rows) if rows.height() == sides && rows.width == elements.patches.len() => {
+                        FormFactors::from_rows(rows)
+                    }
+                    Given::Rows(_) => {
+                        return Err("the rows of form factors are not those of this scene".into());
+                    }
+                    _ => FormFactors::unless_cancelled(geometry, elements, method, cancel)?,
+                });
             }
-            Counted::Diffuse => found.look_around(scene, settings, &passes, method)?,
+            Counted::Diffuse => found.look_around(scene, settings, &passes, method, cancel)?,
         }
         found.report.seconds[2] = lap();
-        let solved = found.problem(told.tolerance).solve(solver).map_err(|e| e.to_string())?;
+        let problem = found.problem(told.tolerance);
+        let solved = problem.solve_unless_cancelled(solver, cancel).map_err(|e| e.to_string())?;
         (found.irradiance, found.report.history) = (solved.irradiance, solved.history);
         found.report.seconds[3] = lap();
     }
@@ -343,6 +418,7 @@ impl RadiositySolution {
         settings: &Settings,
         passes: &[Pass<LANES, M>],
         method: Method,
+        cancel: &Cancel,
     ) -> Result<(), String> {
         let looking = Looking::new(method);
         let mirrored = match method {
@@ -372,12 +448,15 @@ impl RadiositySolution {
             .into_par_iter()
             .map_init(
                 || Scratch::new(patches),
-                |scratch, side| match &mirrored {
-                    Some((cube, mirrors)) => followed.look_into_mirrors(side, cube, mirrors, scratch),
-                    None => followed.look(side, scratch),
+                |scratch, side| {
+                    cancel.check()?;
+                    Ok(match &mirrored {
+                        Some((cube, mirrors)) => followed.look_into_mirrors(side, cube, mirrors, scratch),
+                        None => followed.look(side, scratch),
+                    })
                 },
             )
-            .collect();
+            .collect::<Result<_, Cancelled>>()?;
         if !mechanisms.diffuse_to_diffuse {
             self.direct.fill(0.0);
         }

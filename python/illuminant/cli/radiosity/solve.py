@@ -9,10 +9,12 @@ import typer
 
 from illuminant.cli.options import (
     Adaptive,
+    AllowOutside,
     Elements,
     FormFactors,
     Json,
     LightSamples,
+    MemoryLimit,
     Patches,
     SceneFile,
     Solver,
@@ -56,6 +58,8 @@ def solve(
     threads: Annotated[
         int | None, typer.Option("--threads", metavar="N", help="Threads (all cores).")
     ] = None,
+    allow_outside: AllowOutside = False,
+    memory_limit: MemoryLimit = None,
     json: Json = False,
 ) -> None:
     """Solve for the light between the surfaces of a scene, and write the solution.
@@ -90,6 +94,8 @@ def solve(
         illumination=illumination,
         sampling=sampling,
         threads=threads,
+        allow_outside=allow_outside,
+        memory_limit=memory_limit,
     )
     found.save(path)
     if json:

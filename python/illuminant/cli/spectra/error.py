@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from illuminant.cli.options import Json, SceneFile
+from illuminant.cli.options import AllowOutside, Json, SceneFile
 
 __all__ = ["error"]
 
@@ -22,6 +22,7 @@ def error(
             show_default=False,
         ),
     ] = None,
+    allow_outside: AllowOutside = False,
     json: Json = False,
 ) -> None:
     """Say what a spectral sampling costs in colour in a scene: ΔE00 against 1 nm.
@@ -41,7 +42,7 @@ def error(
     rows = []
     wanted: list[str | None] = [*sampling] if sampling else [None]
     for name in wanted:
-        job = Job(scene, sampling=name)
+        job = Job(scene, allow_outside=allow_outside, sampling=name)
         for text in job.warnings():
             warning(text)
         wavelengths = [float(w) for w in job.core_render.wavelengths()]

@@ -30,6 +30,7 @@ class Panels:
     def __init__(self, session: Session) -> None:
         gui = session.client.gui
         self._status = gui.add_markdown("Starting …")
+        self._trouble = gui.add_markdown("")
         self._facts = gui.add_markdown("")
         self.picture = PicturePanel(session)
         self.measure = MeasurePanel(session)
@@ -41,6 +42,10 @@ class Panels:
 
     def progress(self, frame: Frame) -> None:
         """Tell how far a picture is."""
+        if frame.illuminance is not None:
+            down, across = frame.illuminance.shape
+            self._status.content = f"illuminance at {across} × {down} points"
+            return
         height, width = frame.image.xyz.shape[:2]
         plural = "" if frame.samples == 1 else "s"
         parts = [f"{width} × {height}", f"{frame.samples} sample{plural}", f"{frame.mrays:.1f} Mrays/s"]
@@ -53,14 +58,23 @@ class Panels:
     def facts(self, made: Composed) -> None:
         """Tell what the look did to the picture."""
         if made.scale is not None:
-            self._facts.content = "Luminance on a logarithmic scale; darker than its end is violet."
+            what = made.title.partition(",")[0].capitalize()
+            grey = " Grey has no number." if what == "Illuminance" else ""
+            self._facts.content = f"{what} on a logarithmic scale; darker than its end is violet.{grey}"
         else:
             self._facts.content = f"{100 * made.outside:.2g} % of the pixels are out of gamut."
 
     def say(self, text: str, wrong: bool) -> None:
-        """Show a sentence in place of the progress."""
-        if text:
-            self._status.content = f"**{text}**" if wrong else text
+        """Show a sentence in place of the progress; one on a mistake beside it, until something else is chosen."""
+        if text and wrong:
+            self._trouble.content = f"**{text}**"
+        elif text:
+            self._status.content = text
+
+    def forgive(self) -> None:
+        """Take away the sentence on a mistake."""
+        if self._trouble.content:
+            self._trouble.content = ""
 
 
 def duration(seconds: float) -> str:

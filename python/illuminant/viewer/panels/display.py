@@ -37,5 +37,5 @@ class DisplayPanel:
         chosen = replace(
             look, display=picked(self._display), gamut=picked(self._gamut), dither=picked(self._dither)
         )
-        session.mode = picked(self._mode)
-        session.look_at(replace(session.state, look=chosen, stops=float(picked(self._stops))))
+        state = replace(session.state, look=chosen, stops=float(picked(self._stops)))
+        session.choose_mode(picked(self._mode), state)

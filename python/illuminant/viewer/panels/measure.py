@@ -4,22 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from illuminant.viewer.scale import amount
+
 if TYPE_CHECKING:
     from illuminant.viewer.reading import Reading
     from illuminant.viewer.session import Session
 
-__all__ = ["MeasurePanel", "amount"]
-
-
-def amount(value: float) -> str:
-    """A quantity with four digits, and no power of ten where people write none.
-
-    Example:
-        >>> amount(23451.7), amount(1540.2), amount(0.01234), amount(3e-9)
-        ('23,450', '1,540', '0.01234', '3e-09')
-    """
-    rounded = float(f"{value:.4g}")
-    return f"{rounded:,.0f}" if 1000.0 <= abs(rounded) < 1e9 else f"{value:.4g}"
+__all__ = ["MeasurePanel"]
 
 
 class MeasurePanel:

@@ -1,0 +1,69 @@
+//! Rows of form factors found one range at a time, for work that is shared out among machines.
+
+use super::cutting::cut;
+use super::reflectance::Counted;
+use super::solution::{LANES, counted, prepared, with_model};
+use crate::settings::Settings;
+use illuminant_illumination::{General, Historic, Illumination, IlluminationModel, Prepare};
+use illuminant_radiosity::{Cancel, Elements, FormFactors, Method, Sparse};
+use illuminant_sampling::Basis;
+use illuminant_scene::Scene;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// What finds rows of form factors of a scene.
+pub struct RowFinder {
+    scene: Arc<Scene>,
+    elements: Elements,
+    method: Method,
+}
+
+impl RowFinder {
+    /// Cuts the surfaces of a scene as a solution does.
+    ///
+    /// # Errors
+    /// A sentence on what cannot be: rows on their own exist for `radiosity` alone, since those of `hybrid` follow mirrors together with
+    /// the light of lamps.
+    pub fn new(scene: Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Result<Self, String> {
+        if settings.technique != "radiosity" {
+            return Err(format!(
+                "{} has no rows of form factors on their own; radiosity has",
+                settings.technique
+            ));
+        }
+        let (method, _) = settings.radiosity.checked()?;
+        let elements = with_model!(settings, elements(&scene, settings, basis))?;
+        Ok(Self { scene, elements, method })
+    }
+
+    /// How many rows there are: one for each side that light reaches.
+    #[must_use]
+    pub fn sides(&self) -> usize {
+        self.elements.sides.len()
+    }
+
+    /// How long rows are: the number of patches.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.elements.patches.len()
+    }
+
+    /// The rows of a range of sides, the very ones that a solution finds.
+    #[must_use]
+    pub fn find(&self, sides: Range<usize>) -> Sparse {
+        let end = sides.end.min(self.sides());
+        let sides: Vec<u32> = (sides.start.min(end)..end).map(|side| side as u32).collect();
+        FormFactors::of(&self.elements, &sides, &self.scene.geometry, self.method, &Cancel::default()).rows
+    }
+}
+
+fn elements<M: IlluminationModel<LANES> + Prepare>(
+    illumination: Illumination,
+    scene: &Scene,
+    settings: &Settings,
+    basis: &dyn Basis,
+) -> Result<Elements, String> {
+    let (passes, ..) = prepared::<M>(illumination, scene, basis);
+    debug_assert!(matches!(counted(settings), Counted::All));
+    cut(scene, (&settings.radiosity, counted(settings)), &passes, &Cancel::default())
+}

@@ -1,0 +1,375 @@
+"""Rendering on many machines: shares of the work go to the workers of a Ray cluster, and come as parts of the film.
+
+A share is a range of samples of the pixels of some tiles. Its part of the film is exact, so parts are joined in any
+order, and the image has the bits of one that was rendered here. What a worker was doing when it died is done again by
+another; nothing else is. Shares are sized by the rate so far, to take about two seconds each, and no more of them are
+under way than twice the workers, so that the memory for results stays bounded whatever the image.
+
+Example:
+    >>> from illuminant import farm
+    >>> image = farm.render("scenes/cornell.toml", samples=256)              # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from illuminant.farm.cluster import cluster
+from illuminant.farm.tasks import Brought, Rows, Work, rows, share
+
+if TYPE_CHECKING:
+    from illuminant.checkpoint import Checkpoint, Keeper
+    from illuminant.image import Image
+    from illuminant.job import Job, OnProgress
+    from illuminant.scene import Scene
+    from illuminant.settings import Settings
+
+__all__ = ["Report", "cluster", "render", "render_job", "solve"]
+
+STEP = 64
+"""Samples of a pixel that are shared out before the next ones."""
+
+SECONDS = 2.0
+"""How long a share shall take."""
+
+FIRST = 50_000.0
+"""Samples of a share while the rate of workers is not known."""
+
+MOST_RETRIES = 100
+"""How often a share is done again whose worker died."""
+
+
+@dataclass
+class Report:
+    """How the work went.
+
+    Attributes:
+        shares: how many came back.
+        workers: processes that did them.
+        seconds: since the first was sent.
+        busy: seconds that workers spent on shares, and of these on preparing the render (`prepared`).
+        merging: seconds spent here on joining parts, and their `bytes`.
+    """
+
+    shares: int = 0
+    workers: set[int] = field(default_factory=set)
+    seconds: float = 0.0
+    busy: float = 0.0
+    prepared: float = 0.0
+    merging: float = 0.0
+    bytes: int = 0
+
+    def add(self, brought: Brought) -> None:
+        """Count a share that came back."""
+        self.shares += 1
+        self.bytes += len(brought.part)
+        self.workers.add(brought.process)
+        self.busy += brought.seconds
+        self.prepared += brought.prepared
+
+    def to_dict(self) -> dict[str, Any]:
+        """The same as plain numbers."""
+        return {
+            "shares": self.shares,
+            "workers": len(self.workers),
+            "seconds": self.seconds,
+            "busy_seconds": self.busy,
+            "preparing_seconds": self.prepared,
+            "merging_seconds": self.merging,
+            "bytes": self.bytes,
+        }
+
+
+def render(
+    scene: Scene | str | os.PathLike[str],
+    *,
+    workers: int | None = None,
+    address: str | None = None,
+    threads: int = 1,
+    progress: OnProgress | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    every: str | float = 60.0,
+    resume: bool = False,
+    **options: Any,
+) -> Image:
+    """Render a scene on the workers of a cluster; the image has the bits of `illuminant.render`.
+
+    Args:
+        scene: a `Scene`, or the path of a scene file.
+        workers: of a cluster that is started here and stopped at the end; default one for each processor.
+        address: of a cluster that runs already, instead: `auto`, `host:6379` or `ray://host:10001`.
+        threads: of each worker; each worker has the scene in its memory, so fewer with more threads take less.
+        progress: called after each part with a `Progress`; returning False ends the render with what is done.
+        checkpoint, every, resume: as for `illuminant.render`.
+        options: as for `illuminant.render`.
+
+    Returns:
+        The image; its statistics hold a `farm` with the numbers of `Report`.
+
+    Raises:
+        MachineError: Ray is not there, or the cluster cannot be reached or is lost.
+        RenderInterrupted: Ctrl-C; its attribute `image` holds what was done.
+
+    Example:
+        >>> image = render("scenes/cornell.toml", samples=64, workers=2)      # doctest: +SKIP
+        >>> image.statistics["farm"]["shares"]                               # doctest: +SKIP
+        12
+    """
+    from illuminant.checkpoint import Keeper, resumed
+    from illuminant.job import Job, held
+    from illuminant.rendering import RenderInterrupted
+    from illuminant.settings import duration
+
+    keeper = None if checkpoint is None else Keeper(checkpoint, duration(every, "every"))
+    before: Checkpoint | None = None if checkpoint is None else resumed(checkpoint, resume=resume)
+    with cluster(workers, address) as ray:
+        job = Job(
+            scene,
+            checkpoint=before,
+            solve_by=lambda scene, settings: solve(ray, scene, settings, threads=threads),
+            **options,
+        )
+        report = render_job(ray, job, threads=threads, progress=progress, keeper=keeper)
+    image = job.image()
+    image.statistics["farm"] = report.to_dict()
+    if job.interrupted:
+        raise RenderInterrupted(f"The render was interrupted; {held(image)}.", image)
+    return image
+
+
+def render_job(
+    ray: Any,
+    job: Job,
+    *,
+    threads: int = 1,
+    progress: OnProgress | None = None,
+    keeper: Keeper | None = None,
+) -> Report:
+    """Do the work of a job on a cluster that is connected; the job then holds the image.
+
+    Args:
+        ray: what `cluster` yields.
+        job: with an empty film, or one that goes on from a checkpoint.
+        threads: of each worker.
+        progress: as for `render`.
+        keeper: writes checkpoints of what has been joined.
+    """
+    from illuminant.errors import MachineError
+
+    work = _work(ray, job, threads)
+    remote = ray.remote(num_cpus=threads, max_retries=MOST_RETRIES)(share)
+    lanes = max(1, int(ray.cluster_resources().get("CPU", 1)) // threads)
+    report, sizes = Report(), _Sizes(job, lanes)
+    waiting: dict[Any, _Share] = {}
+    left: dict[int, int] = {}
+    began = time.monotonic()
+
+    def over() -> bool:
+        return job.interrupted or job.stopped
+
+    def settle(end: int) -> None:
+        left[end] -= 1
+        # Ranges end in order; a later one may have all of its shares before.
+        while left and not next(iter(left.values())):
+            job.done = next(iter(left))
+            del left[job.done]
+
+    def take(reference: Any) -> None:
+        done = waiting.pop(reference)
+        brought: Brought = ray.get(reference)
+        start = time.perf_counter()
+        job.join(brought.part)
+        report.merging += time.perf_counter() - start
+        report.add(brought)
+        sizes.learn(done, brought)
+        settle(done.end)
+        if progress is not None and progress(job.progress_at(sizes.samples)) is False:
+            job.stopped = True
+        if keeper is not None and keeper.due():
+            keeper.keep(job)
+
+    def wait() -> None:
+        ready, _ = ray.wait(list(waiting), num_returns=1, timeout=0.2)
+        for reference in ready:
+            take(reference)
+
+    try:
+        for start, end in _ranges(job):
+            left[end] = 1  # until all of its shares are sent
+            for one in sizes.shares(start, end):
+                left[end] += 1
+                waiting[remote.remote(work, one.samples, one.tiles, one.from_lamps)] = one
+                while len(waiting) >= 2 * lanes and not over():
+                    wait()
+                if over():
+                    break
+            else:
+                settle(end)
+            while waiting and not over() and not _is_known(job):
+                wait()
+            if over():
+                break
+        while waiting and not over():
+            wait()
+    except KeyboardInterrupt:
+        job.interrupted = True
+    except ray.exceptions.RayError as error:
+        reason = " ".join(str(error).split())[:300].rstrip(".")
+        raise MachineError(f"The cluster lost a share of the work for good: {reason}.") from error
+    finally:
+        for reference in waiting:
+            ray.cancel(reference, force=True)
+    if keeper is not None:
+        keeper.keep(job)
+    report.seconds = time.monotonic() - began
+    return report
+
+
+def solve(ray: Any, scene: Scene, settings: Settings, *, threads: int = 1) -> Any:
+    """Solve for the light between surfaces for `radiosity`: workers find the rows of form factors.
+
+    Other techniques find them together with the light of lamps, and are left to this process.
+
+    Args:
+        ray: what `cluster` yields.
+        scene: the scene.
+        settings: of the render.
+        threads: of each worker.
+
+    Returns:
+        The core's solution; the one that it finds itself, to the bit. None for other techniques.
+    """
+    if settings.technique != "radiosity":
+        return None
+    import numpy as np
+
+    from illuminant.core import core, embree
+
+    embree()
+    core_scene = scene.core(settings.threads)
+    told = replace(settings, threads=threads).to_core()
+    finder = core().RowFinder(core_scene, told)
+    count, width = len(finder), finder.width
+    del finder
+    work = Work(f"{scene.hash()} {told}", told, threads, [ray.put(scene.to_bytes())])
+    lanes = max(1, int(ray.cluster_resources().get("CPU", 1)) // threads)
+    step = max(16, count // (8 * lanes))
+    remote = ray.remote(num_cpus=threads, max_retries=MOST_RETRIES)(rows)
+    waiting: list[Any] = []
+    found: list[Rows] = []
+    first = 0
+    while first < count or waiting:
+        while first < count and len(waiting) < 2 * lanes:
+            waiting.append(remote.remote(work, first, min(first + step, count)))
+            first += step
+        ready, waiting = ray.wait(waiting, num_returns=1)
+        found += ray.get(ready)
+    found.sort(key=lambda one: one.first)
+    starts, end = [np.zeros(1, np.uint64)], 0
+    for one in found:
+        starts.append(one.starts[1:] + np.uint64(end))
+        end += int(one.starts[-1])
+    together = {
+        "starts": np.concatenate(starts),
+        "columns": np.concatenate([one.columns for one in found]),
+        "values": np.concatenate([one.values for one in found]),
+        "width": width,
+    }
+    return core().Solution(core_scene, settings.to_core(), None, together)
+
+
+def _work(ray: Any, job: Job, threads: int) -> Work:
+    """The render for the workers: what is large goes into the store of the cluster."""
+    settings = replace(job.settings, threads=threads).to_core()
+    references = [ray.put(job.scene.to_bytes())]
+    solution = job.solution_bytes()
+    if solution:
+        references.append(ray.put(solution))
+    key = hashlib.sha256(json.dumps([job.identity(), settings], sort_keys=True).encode()).hexdigest()
+    return Work(key, settings, threads, references)
+
+
+def _is_known(job: Job) -> bool:
+    """Whether it is known from the start which samples are taken: neither time nor error decide."""
+    settings = job.settings
+    return settings.time is None and settings.error is None
+
+
+def _ranges(job: Job) -> Iterator[tuple[int, int]]:
+    """First and last of the ranges of samples: known from the start, or each found when the one before is done."""
+    if _is_known(job):
+        for first in range(job.done, job.settings.samples or 0, STEP):
+            yield first, min(first + STEP, job.settings.samples or 0)
+        return
+    while (end := job.next_end()) > job.done:
+        yield job.done, end
+
+
+@dataclass(frozen=True)
+class _Share:
+    samples: tuple[int, int]
+    tiles: tuple[int, int]
+    from_lamps: bool
+    end: int
+    pixels: int
+
+    @property
+    def size(self) -> int:
+        """Samples over all its pixels."""
+        return self.pixels * (self.samples[1] - self.samples[0])
+
+
+class _Sizes:
+    """How large shares are: small ones until the rate of workers is known, then such that they take `SECONDS`."""
+
+    def __init__(self, job: Job, lanes: int) -> None:
+        areas = job.core_render.tiles()
+        self._pixels = [(right - left) * (bottom - top) for left, top, right, bottom in areas]
+        self._all = sum(self._pixels)
+        self._caustics = job.settings.caustics
+        self._size = max(1.0, min(FIRST, self._all / (4 * lanes)))
+        self._rates: list[float] = []
+        self._taken = job.done * self._all
+
+    @property
+    def samples(self) -> float:
+        """Samples of a pixel, mean over the image."""
+        return float(self._taken / self._all)
+
+    def learn(self, done: _Share, brought: Brought) -> None:
+        """Take note of how long a share took."""
+        if not done.from_lamps:
+            self._taken += done.size
+        worked = max(brought.seconds - brought.prepared, 1e-4)
+        self._rates = [*self._rates[-15:], done.size / worked]
+        # The slower ones of the last rates: no share shall take much too long.
+        self._size = SECONDS * sorted(self._rates)[len(self._rates) // 4]
+
+    def shares(self, first: int, end: int) -> Iterator[_Share]:
+        """A range of samples as shares."""
+        start = 0
+        while start < len(self._pixels):
+            tiles, pixels = start, 0
+            while tiles < len(self._pixels) and (not pixels or pixels * (end - first) < self._size):
+                pixels += self._pixels[tiles]
+                tiles += 1
+            yield from self._cut(first, end, (start, tiles), pixels, from_lamps=False)
+            start = tiles
+        if self._caustics:
+            yield from self._cut(first, end, (0, 0), self._all, from_lamps=True)
+
+    def _cut(
+        self, first: int, end: int, tiles: tuple[int, int], pixels: int, *, from_lamps: bool
+    ) -> Iterator[_Share]:
+        """The samples of some tiles, cut where they are still too many."""
+        at = first
+        while at < end:
+            last = min(end, at + max(1, int(self._size / pixels)))
+            yield _Share((at, last), tiles, from_lamps, end, pixels)
+            at = last

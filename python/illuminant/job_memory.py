@@ -1,0 +1,106 @@
+"""What a render will take of memory, by parts, before anything of it is made.
+
+| part | bytes | measured with Embree 4.4 |
+| --- | --- | --- |
+| film and image | `film_memory.memory_needed` | 130 a pixel of 148, 360 of 436 with 8 lanes kept |
+| geometry | its arrays once more, and 100 a triangle for the ray structure | 236 MB for 2.0 million triangles |
+| images of surfaces and surroundings | 50 a pixel | 48 while tables are made, 18 and 30 after it |
+| form factors | 18.5 each: 8, and as they are put together | 18 to 19 |
+| directions of `specular-radiosity` | 12 a lane and cell | 11 |
+| shadow maps | `film_memory.shadow_map_memory`, at most | fewer where a lamp sees part of the scene |
+
+How many form factors there will be is a guess: 1.3 sides for each element (2 where sheets are lit from both sides),
+and for each side as many as it sees patches, at most 0.75 of its rays. What the process holds already (packages, the
+arrays of the scene) is no part of this; `machine.resident` measures it.
+
+Example:
+    >>> from illuminant.scene import Scene
+    >>> from illuminant.settings import Settings
+    >>> scene = Scene.build(
+    ...     camera={"eye": [0, 0, 3], "target": [0, 0, 0], "size": [960, 540]},
+    ...     materials={"grey": {"kind": "diffuse", "reflectance": 0.5}},
+    ...     objects={"ball": {"sphere": {"radius": 1.0}, "material": "grey"}},
+    ...     lights={"sky": {"kind": "environment", "spectrum": "D65", "luminance_cd_m2": 1000.0}},
+    ... )
+    >>> {name: bytes // 1_000_000 for name, bytes in parts(Settings(), scene, 960 * 540, 1).items()}
+    {'libraries': 50, 'film and image': 76}
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from illuminant import machine
+from illuminant.film_memory import lanes, memory_needed, shadow_map_memory
+from illuminant.settings import SOLVED, Settings
+
+if TYPE_CHECKING:
+    from illuminant.scene import Scene
+
+__all__ = ["check", "parts"]
+
+LIBRARIES = 50_000_000
+"""Embree, threads, and what a small scene takes."""
+
+BYTES_A_TRIANGLE, BYTES_A_PIXEL, BYTES_A_FACTOR = 100, 50, 18.5
+SIDES_AN_ELEMENT, FACTORS_A_RAY = 1.3, 0.75
+ELEMENTS_MORE = 1.2
+"""How many more elements there may be than asked for, beside one for each triangle."""
+
+
+def parts(settings: Settings, scene: Scene, pixels: int, lamps: int) -> dict[str, int]:
+    """Bytes of each part that there is, beside what the process holds.
+
+    Args:
+        settings: of the render.
+        scene: what is rendered.
+        pixels: of the image, or its crop.
+        lamps: how many lamps the scene has.
+    """
+    arrays = scene.arrays
+    shapes = [array for name, array in arrays.items() if name.startswith("shape:")]
+    faces = sum(len(array) for name, array in arrays.items() if name.endswith(":indices"))
+    images = sum(
+        array.shape[0] * array.shape[1] for name, array in arrays.items() if name.startswith("image:")
+    )
+    found = {
+        "libraries": LIBRARIES,
+        "film and image": memory_needed(settings, pixels, lamps),
+        "geometry": sum(array.nbytes for array in shapes if array.nbytes > 32) + BYTES_A_TRIANGLE * faces,
+        "textures and environments": BYTES_A_PIXEL * images,
+        "shadow maps": shadow_map_memory(settings, scene.description),
+    }
+    if settings.technique in SOLVED or settings.technique == "specular-radiosity":
+        found["radiosity"] = _radiosity(settings, scene.triangles)
+    return {name: count for name, count in found.items() if count}
+
+
+def _radiosity(settings: Settings, triangles: int) -> int:
+    elements = ELEMENTS_MORE * settings.elements + triangles
+    sides = SIDES_AN_ELEMENT * elements
+    values = lanes(settings.sampling)
+    if settings.technique == "specular-radiosity":
+        return int(sides * 6 * settings.cube**2 * 12 * values)
+    patches = sides
+    if settings.patches is not None:
+        patches = min(sides, SIDES_AN_ELEMENT * (ELEMENTS_MORE * settings.patches + triangles))
+    kind, _, count = settings.form_factors.partition(":")
+    number = int(count) if count.isdigit() else 1
+    asked = {"rays": number, "hemicube": 3 * number**2}.get(kind)
+    each = patches if asked is None else min(patches, FACTORS_A_RAY * asked)
+    if settings.solver == "progressive":
+        each = 0
+    dense = 4 * patches**2 * values if settings.solver == "gauss" else 0
+    return int(BYTES_A_FACTOR * sides * each + dense + 40 * values * sides)
+
+
+def check(settings: Settings, scene: Scene, pixels: int, lamps: int) -> None:
+    """Refuse what does not fit into the memory that may be used (`machine.limited_to`).
+
+    Raises:
+        MachineError: one sentence with both amounts and the largest parts.
+    """
+    found = parts(settings, scene, pixels, lamps)
+    largest = sorted(found, key=lambda name: -found[name])[:3]
+    told = ", ".join(f"{name} {machine.size(found[name])}" for name in largest)
+    machine.refuse(f"This render ({told})", sum(found.values()))

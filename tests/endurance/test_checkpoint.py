@@ -1,0 +1,237 @@
+"""Checkpoints: a render that was cut off goes on to the bits of one that was not; wrong files are refused."""
+
+import json
+import random
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import illuminant
+from illuminant.checkpoint import Checkpoint, Keeper
+from illuminant.errors import DataError, MachineError, UsageError
+from illuminant.job import Job
+
+SMALL = {"size": (40, 24), "samples": 24}
+KINDS = [
+    {"technique": "path"},
+    {"technique": "path", "caustics": True},
+    {"technique": "path", "error": 0.2, "samples": 128},
+    {"technique": "path", "sampling": "uniform:20", "keep_spectra": True, "lamps": True},
+    {"technique": "distributed", "illumination": "hall", "sampler": "jittered"},
+    {"technique": "phong", "illumination": "phong", "layers": "terms"},
+    {"technique": "radiosity", "elements": 300, "form_factors": "rays:64"},
+    {"technique": "hybrid", "elements": 200, "form_factors": "rays:64"},
+]
+
+
+class Cut:
+    """A progress that ends a render at its so many-th report."""
+
+    def __init__(self, reports: int) -> None:
+        self.left = reports
+
+    def __call__(self, progress: object) -> bool:
+        """Count a report."""
+        self.left -= 1
+        return self.left > 0
+
+
+def same(one: illuminant.Image, other: illuminant.Image) -> None:
+    """Two images agree in every bit and every word."""
+    assert one.xyz.tobytes() == other.xyz.tobytes()
+    assert one.layers.keys() == other.layers.keys()
+    for name, layer in one.layers.items():
+        assert layer.tobytes() == other.layers[name].tobytes(), name
+    assert one.settings == other.settings
+    for count in ("samples", "rays", "dropped"):
+        assert one.statistics[count] == other.statistics[count], count
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: "-".join(map(str, kind.values())))
+def test_a_render_that_was_cut_off_goes_on_to_the_same_bits(scenes, tmp_path, kind):
+    options = {**SMALL, **kind}
+    whole = illuminant.render(scenes / "cornell.toml", **options)
+    file, chance = tmp_path / "image.ckpt", random.Random(3)
+    for attempt in range(40):
+        before = Checkpoint.read(file) if file.exists() else None
+        job = Job(scenes / "cornell.toml", checkpoint=before, threads=1 + attempt % 2, **options)
+        cut = Cut(chance.randint(1, 3)) if attempt < 3 else None
+        for _ in job.passes(cut, Keeper(file)):
+            pass
+        if not job.stopped:
+            break
+    same(job.image(), whole)
+
+
+def test_more_samples_can_be_asked_for_later(scenes, tmp_path):
+    file = tmp_path / "image.ckpt"
+    illuminant.render(scenes / "cornell.toml", size=(40, 24), samples=8, checkpoint=file)
+    more = illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=file, resume=True)
+    same(more, illuminant.render(scenes / "cornell.toml", **SMALL))
+
+
+def test_checkpoints_are_written_on_the_way(scenes, tmp_path):
+    file, seen = tmp_path / "image.ckpt", []
+
+    class Watched(Keeper):
+        def keep(self, job: Job) -> bool:
+            kept = super().keep(job)
+            seen.append(Checkpoint.read(file).seconds)
+            return kept
+
+    job = Job(scenes / "cornell.toml", size=(128, 128), samples=64)
+    assert list(job.passes(None, Watched(file, every=0.15)))[-1] == 64
+    assert len(seen) > 2
+    assert seen == sorted(seen)
+    same(job.image(), illuminant.render(scenes / "cornell.toml", size=(128, 128), samples=64))
+
+
+def test_a_checkpoint_of_another_render_is_refused_with_what_differs(scenes, tmp_path):
+    file = tmp_path / "image.ckpt"
+    illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=file)
+    for options, words in (
+        ({"seed": 7}, "seed was 0 and is 7"),
+        ({"technique": "distributed"}, "technique was path and is distributed"),
+        ({"size": (40, 25)}, "the scene has changed; size was [40, 24] and is [40, 25]"),
+        ({"layers": "depth"}, 'layers was [] and is ["depth"]'),
+    ):
+        with pytest.raises(UsageError) as caught:
+            illuminant.render(scenes / "cornell.toml", **{**SMALL, **options}, checkpoint=file, resume=True)
+        assert words in str(caught.value)
+    with pytest.raises(UsageError, match="the scene has changed"):
+        illuminant.render(scenes / "demo.toml", **SMALL, checkpoint=file, resume=True)
+    with pytest.raises(UsageError, match="--resume, or remove it"):
+        illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=file)
+    kept = Checkpoint.read(file)
+    older = Checkpoint({**kept.identity, "version": "0.0.1"}, kept.done, kept.seconds, kept.part)
+    with pytest.raises(UsageError, match=r"version was 0\.0\.1 and is"):
+        Job(scenes / "cornell.toml", checkpoint=older, **SMALL)
+
+
+def test_samples_of_counted_samplers_are_part_of_the_identity(scenes, tmp_path):
+    file = tmp_path / "image.ckpt"
+    illuminant.render(scenes / "cornell.toml", **SMALL, sampler="stratified", checkpoint=file)
+    with pytest.raises(UsageError, match="samples was 24 and is 48"):
+        illuminant.render(
+            scenes / "cornell.toml",
+            **{**SMALL, "samples": 48},
+            sampler="stratified",
+            checkpoint=file,
+            resume=True,
+        )
+
+
+@settings(max_examples=300)
+@given(at=st.integers(0, 10_000), bit=st.integers(0, 7), cut=st.booleans())
+def test_any_damage_is_found(at, bit, cut):
+    whole = _bytes(Checkpoint({"seed": 0}, 64, 1.5, bytes(range(100)), b"solution"))
+    at %= len(whole)
+    damaged = whole[:at] if cut else whole[:at] + bytes([whole[at] ^ 1 << bit]) + whole[at + 1 :]
+    with pytest.raises(DataError):
+        Checkpoint.from_bytes(damaged)
+
+
+def _bytes(checkpoint: Checkpoint) -> bytes:
+    """What `write` writes."""
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "one")
+        checkpoint.write(file)
+        assert [path.name for path in Path(folder).iterdir()] == ["one"]
+        return file.read_bytes()
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        {"identity": [], "done": 1, "seconds": 1, "blocks": [0, 0]},
+        {"identity": {}, "done": -1, "seconds": 1, "blocks": [0, 0]},
+        {"identity": {}, "done": 1, "seconds": 1e400, "blocks": [0, 0]},
+        {"identity": {}, "done": 1, "seconds": 1, "blocks": [0, 2**70]},
+        {"identity": {}, "done": 1, "seconds": 1, "blocks": [-5, 5]},
+        {"identity": {}, "done": 1, "seconds": 1},
+        [],
+    ],
+)
+def test_a_header_that_cannot_be_is_refused_even_with_the_right_digest(header):
+    import hashlib
+    import struct
+
+    text = json.dumps(header).encode()
+    content = b"illuminant checkpoint 1\n" + struct.pack("<Q", len(text)) + text
+    with pytest.raises(DataError, match="damaged"):
+        Checkpoint.from_bytes(content + hashlib.sha256(content).digest())
+
+
+def test_a_part_of_another_film_is_refused(scenes):
+    job = Job(scenes / "cornell.toml", **SMALL)
+    other = Job(scenes / "cornell.toml", size=(8, 8), samples=1)
+    for one in (job, other):
+        list(one.passes())
+    with pytest.raises(DataError, match="its pixels differ"):
+        job.join(other.core_render.part())
+    before = job.image()
+    with pytest.raises(DataError, match="samples 0 to 24 of tile 0 are in the render already"):
+        job.join(job.core_render.part())
+    with pytest.raises(DataError, match="damaged"):
+        job.join(job.core_render.part()[:-3])
+    same(job.image(), before)
+
+
+def test_a_full_disk_costs_the_newest_checkpoint_and_no_more(scenes, tmp_path, monkeypatch):
+    file, told = tmp_path / "image.ckpt", []
+    job = Job(scenes / "cornell.toml", **SMALL)
+    keeper = Keeper(file, 60.0, told.append)
+    assert keeper.keep(job)
+    before = file.read_bytes()
+    real = open
+
+    class Full:
+        """A file on a disk that has room for a thousand bytes."""
+
+        def __init__(self, *arguments: object) -> None:
+            self.file, self.room = real(*arguments), 1000
+
+        def write(self, block: bytes) -> None:
+            self.room -= len(block)
+            if self.room < 0:
+                raise OSError(28, "No space left on device")
+            self.file.write(block)
+
+        def __enter__(self) -> "Full":
+            return self
+
+        def __exit__(self, *error: object) -> None:
+            self.file.close()
+
+    list(job.passes())
+    monkeypatch.setattr("illuminant.checkpoint.open", Full, raising=False)
+    assert not keeper.keep(job)
+    assert isinstance(told[0], MachineError)
+    assert "no space left" in str(told[0])
+    assert file.read_bytes() == before
+    assert [path.name for path in tmp_path.iterdir()] == ["image.ckpt"]
+
+
+def test_the_command_keeps_and_resumes(inside, scenes, tmp_path):
+    words = ["render", scenes / "cornell.toml", "-o", tmp_path / "a.exr", "--size", "40x24", "--json"]
+    kept = ["--checkpoint", tmp_path / "a.ckpt", "--every", "1s"]
+    assert inside(*words, "--samples", 8, *kept).returncode == 0
+    refused = inside(*words, "--samples", 24, *kept)
+    assert refused.returncode == 2
+    assert "--resume" in refused.stderr
+    assert inside(*words, "--samples", 24, *kept, "--resume").returncode == 0
+    same_samples = inside(*words[:3], tmp_path / "b.exr", *words[4:], "--samples", 24)
+    assert same_samples.returncode == 0
+    one, other = (illuminant.Image.open(tmp_path / name) for name in ("a.exr", "b.exr"))
+    assert one.xyz.tobytes() == other.xyz.tobytes()
+    assert one.settings == other.settings
+    assert "goes with --checkpoint" in inside(*words, "--resume").stderr
+    assert "--every soon" in inside(*words, *kept, "--every", "soon").stderr
+    (tmp_path / "a.ckpt").write_bytes(b"illuminant checkpoint 1\n" + bytes(90))
+    damaged = inside(*words, *kept, "--resume")
+    assert damaged.returncode == 2
+    assert "is damaged" in damaged.stderr

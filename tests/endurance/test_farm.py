@@ -1,0 +1,149 @@
+"""The farm: an image made by workers has the bits of one made here, whatever happens to the workers."""
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import illuminant
+from illuminant import farm
+from illuminant.errors import UsageError
+from illuminant.job import Job
+
+SMALL = {"size": (48, 32), "samples": 72}
+KINDS = [
+    {"technique": "path", "layers": "depth,normal,samples"},
+    {"technique": "path", "caustics": True, "lamps": True},
+    {"technique": "path", "error": 0.15, "samples": 256},
+    {"technique": "path", "sampling": "uniform:20", "keep_spectra": True, "samples": 8},
+    {"technique": "phong", "illumination": "phong", "samples": 8},
+    {"technique": "radiosity", "elements": 300, "form_factors": "rays:64", "samples": 8},
+    {"technique": "hybrid", "elements": 200, "form_factors": "rays:64", "samples": 8},
+    {"technique": "specular-radiosity", "elements": 100, "samples": 4},
+]
+
+
+@pytest.fixture(scope="module")
+def ray() -> Iterator[Any]:
+    pytest.importorskip("ray", reason="Ray is not installed")
+    with farm.cluster(workers=2) as connected:
+        yield connected
+
+
+def same(one: illuminant.Image, other: illuminant.Image) -> None:
+    """Two images agree in every bit and every word."""
+    assert one.xyz.tobytes() == other.xyz.tobytes()
+    for name, layer in one.layers.items():
+        assert layer.tobytes() == other.layers[name].tobytes(), name
+    assert one.settings == other.settings
+    assert one.statistics["samples"] == other.statistics["samples"]
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: "-".join(map(str, kind.values())))
+def test_the_image_has_the_bits_of_one_made_here(ray, scenes, kind):
+    image = farm.render(scenes / "cornell.toml", **{**SMALL, **kind})
+    same(image, illuminant.render(scenes / "cornell.toml", **{**SMALL, **kind}))
+    assert image.statistics["farm"]["shares"] >= 4
+    assert image.statistics["farm"]["bytes"] > 0
+
+
+def workers() -> list[int]:
+    """Processes that are doing a share now."""
+    found = []
+    for folder in Path("/proc").iterdir():
+        try:
+            if (folder / "cmdline").read_bytes().startswith(b"ray::share"):
+                found.append(int(folder.name))
+        except (OSError, ValueError):
+            pass
+    return found
+
+
+def test_a_worker_that_is_killed_costs_what_it_was_doing(ray, scenes):
+    options = {"size": (128, 96), "samples": 512}
+    job, killed, over = Job(scenes / "cornell.toml", **options), set(), threading.Event()
+
+    def kill() -> None:
+        while not over.is_set() and len(killed) < 3:
+            time.sleep(0.4)
+            for process in workers()[:1]:
+                os.kill(process, signal.SIGKILL)
+                killed.add(process)
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    try:
+        report = farm.render_job(ray, job)
+    finally:
+        over.set()
+        killer.join()
+    assert killed, "no worker was met at its work"
+    same(job.image(), illuminant.render(scenes / "cornell.toml", **options))
+    # Each share came back once, and no finished one was done again.
+    assert job.image().statistics["samples"] == 128 * 96 * 512
+    assert report.shares >= len(killed)
+
+
+def test_no_more_is_under_way_than_twice_the_workers(ray, scenes, monkeypatch):
+    most = 0
+    wait = ray.wait
+
+    def counted(references: list[Any], **options: Any) -> Any:
+        nonlocal most
+        most = max(most, len(references))
+        return wait(references, **options)
+
+    monkeypatch.setattr(ray, "wait", counted)
+    monkeypatch.setattr(farm, "SECONDS", 0.02)
+    image = farm.render(scenes / "cornell.toml", **SMALL)
+    assert image.statistics["farm"]["shares"] > 8
+    assert 2 <= most <= 4
+
+
+def test_it_ends_when_it_is_told(ray, scenes):
+    seen: list[float] = []
+
+    def enough(progress: illuminant.job.Progress) -> bool:
+        seen.append(progress.samples)
+        return len(seen) < 2
+
+    image = farm.render(scenes / "cornell.toml", size=(64, 64), samples=10_000, progress=enough)
+    assert len(seen) == 2
+    assert 0 < image.statistics["samples"] < 64 * 64 * 10_000
+
+
+def test_it_goes_on_from_a_checkpoint_made_here(ray, scenes, tmp_path):
+    file = tmp_path / "image.ckpt"
+    illuminant.render(scenes / "cornell.toml", size=(48, 32), samples=10, checkpoint=file)
+    image = farm.render(scenes / "cornell.toml", **SMALL, checkpoint=file, resume=True)
+    same(image, illuminant.render(scenes / "cornell.toml", **SMALL))
+    again = illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=file, resume=True)
+    assert again.xyz.tobytes() == image.xyz.tobytes()
+
+
+def test_what_cannot_be_is_said_in_a_sentence():
+    with pytest.raises(UsageError, match="--workers: is for a cluster that is started here"):
+        farm.render("nowhere.toml", workers=2, address="auto")
+    with pytest.raises(UsageError, match="--workers 0"):
+        farm.render("nowhere.toml", workers=0)
+
+
+def test_the_command_starts_and_stops_a_cluster(command, scenes, tmp_path):
+    pytest.importorskip("ray", reason="Ray is not installed")
+    words = ["farm", "render", scenes / "cornell.toml", "--size", "32x32", "--samples", "16"]
+    done = command(*words, "--workers", 1, "-o", tmp_path / "a.exr")
+    assert done.returncode == 0, done.stderr
+    assert "farm: " in done.stderr + done.stdout
+    here = illuminant.render(scenes / "cornell.toml", size=(32, 32), samples=16)
+    assert (
+        illuminant.Image.open(tmp_path / "a.exr").xyz.astype("f4").tobytes()
+        == here.xyz.astype("f4").tobytes()
+    )
+    lost = command(*words, "--address", "127.0.0.1:1", "-o", tmp_path / "b.exr", timeout=120)
+    assert lost.returncode == 3
+    assert "cannot be reached at 127.0.0.1:1" in lost.stderr

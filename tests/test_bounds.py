@@ -1,0 +1,378 @@
+"""What a hostile scene, table or image may not do: each is refused in a sentence, soon, and without much memory."""
+
+from __future__ import annotations
+
+import importlib
+import io
+import json
+import os
+import re
+import resource
+import socket
+import struct
+import subprocess
+import sys
+import time
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import illuminant
+from illuminant import archives, machine, meshes, pixels, scene_file, sources
+from illuminant.errors import DataError, ImageError, MachineError, SceneError, UsageError
+
+ROOT = Path(__file__).parents[1]
+SCENE = """
+[camera]
+eye = [0, 0, 3]
+target = [0, 0, 0]
+size = [8, 8]
+[materials.grey]
+kind = "diffuse"
+reflectance = {reflectance}
+[objects.ball]
+{shape}
+material = "grey"
+[lights.sky]
+kind = "environment"
+{light}
+"""
+
+
+def scene(path: Path, reflectance="0.5", shape="sphere = { radius = 1.0 }", light='spectrum = "D65"') -> Path:
+    path.write_text(
+        SCENE.format(reflectance=reflectance, shape=shape, light=light + "\nluminance_cd_m2 = 100.0")
+    )
+    return path
+
+
+def run(*words: object, memory: int | None = None) -> subprocess.CompletedProcess[str]:
+    """The command, which must end within a minute, with so much address space."""
+
+    def limit() -> None:
+        if memory is not None:
+            resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+
+    command = [sys.executable, "-m", "illuminant", *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, preexec_fn=limit, check=False)
+
+
+# --- files that are none ------------------------------------------------------------------------------------------
+
+
+def test_only_regular_files_are_opened(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    with socket.socket(socket.AF_UNIX) as one:
+        one.bind(str(tmp_path / "socket"))
+    (tmp_path / "loop").symlink_to(tmp_path / "loop")
+    (tmp_path / "large").write_bytes(bytes(11))
+    for name, kind, sentence in (
+        ("pipe", "special", "is a pipe"),
+        ("socket", "special", "is a socket"),
+        ("loop", "loop", "is a loop of symbolic links"),
+        (".", "folder", "is a folder"),
+        ("none", "missing", "there is no such file"),
+        ("large", "large", "is larger than 10 bytes"),
+        ("/dev/zero", "special", "is a device"),
+    ):
+        for ask in (sources.read, sources.check, sources.opened):
+            with pytest.raises(sources.SourceError, match=sentence) as caught:
+                ask(tmp_path / name, 10)
+            assert caught.value.kind == kind
+    (tmp_path / "large").write_bytes(bytes(10))
+    assert sources.read(tmp_path / "large", 10) == bytes(10)
+
+
+def test_no_command_waits_for_a_pipe(tmp_path):
+    for name in ("a.toml", "a.csv", "a.exr", "a.png"):
+        os.mkfifo(tmp_path / name)
+    here = scene(tmp_path / "scene.toml", reflectance='{ file = "a.csv" }')
+    for words in (("check", tmp_path / "a.toml"), ("check", here), ("info", tmp_path / "a.exr")):
+        done = run(*words)
+        assert done.returncode in (1, 2)
+        assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        {"reflectance": '{ file = "NAME" }'},
+        {"reflectance": '{ image = "NAME" }'},
+        {"shape": 'mesh = "NAME.ply"'},
+        {"light": 'image = "NAME"'},
+    ],
+)
+def test_a_pipe_in_a_scene_is_a_mistake_with_its_line(tmp_path, parts):
+    for name in ("pipe", "pipe.ply"):
+        os.mkfifo(tmp_path / name)
+    path = scene(tmp_path / "a.toml", **{key: text.replace("NAME", "pipe") for key, text in parts.items()})
+    (problem,) = scene_file.check(path)
+    assert problem.line > 0
+    assert "is a pipe" in problem.message
+
+
+# --- what a scene may name ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("way", ["dots", "absolute", "link"])
+@pytest.mark.parametrize(
+    ("parts", "ending"),
+    [
+        ({"reflectance": '{ file = "NAME" }'}, ".csv"),
+        ({"reflectance": '{ image = "NAME" }'}, ".exr"),
+        ({"shape": 'mesh = "NAME"'}, ".ply"),
+        ({"light": 'image = "NAME"'}, ".exr"),
+    ],
+)
+def test_a_scene_names_files_of_its_own_folder_alone(tmp_path, way, parts, ending):
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    secret = tmp_path / f"secret{ending}"
+    secret.write_bytes(b"400 0.5\n700 0.5\n")
+    (inner / f"link{ending}").symlink_to(secret)
+    name = {"dots": f"../{secret.name}", "absolute": str(secret), "link": f"link{ending}"}[way]
+    path = scene(inner / "a.toml", **{key: text.replace("NAME", name) for key, text in parts.items()})
+    (problem,) = scene_file.check(path)
+    assert (problem.kind, problem.line > 0) == ("outside", True)
+    assert name in problem.message
+    assert "--allow-outside" in problem.message
+    assert not any(one.kind == "outside" for one in scene_file.check(path, allow_outside=True))
+
+
+def test_allow_outside_reaches_every_command(tmp_path):
+    (tmp_path / "paint.csv").write_text("400 0.5\n700 0.5\n")
+    (tmp_path / "in").mkdir()
+    path = scene(tmp_path / "in" / "a.toml", reflectance='{ file = "../paint.csv" }')
+    with pytest.raises(SceneError, match="lies outside the folder"):
+        illuminant.load(path)
+    assert illuminant.load(path, allow_outside=True).description["materials"]
+    with pytest.raises(SceneError, match="lies outside"):
+        illuminant.render(path, samples=1)
+    assert illuminant.render(path, samples=1, allow_outside=True).xyz.shape == (8, 8, 3)
+    assert run("check", path).returncode == 1
+    assert run("check", path, "--allow-outside").returncode == 0
+    assert run("audit", path, "--draws", 100).returncode == 2
+
+
+def test_a_program_may_name_any_file_and_need_not(tmp_path):
+    (tmp_path / "paint.csv").write_text("400 0.5\n700 0.5\n")
+    (tmp_path / "in").mkdir()
+    data, _ = scene_file.parse(scene(tmp_path / "a.toml", reflectance='{ file = "../paint.csv" }'))
+    assert scene_file.resolve(data, tmp_path / "in")
+    with pytest.raises(SceneError, match="lies outside"):
+        scene_file.resolve(data, tmp_path / "in", allow_outside=False)
+
+
+# --- bombs --------------------------------------------------------------------------------------------------------
+
+
+def test_toml_that_is_nested_too_deeply(tmp_path):
+    path = tmp_path / "a.toml"
+    for text in ("a = " + "[" * 100_000, "a" + ".a" * 100_000 + " = 1", "a = " + "{a=" * 100_000):
+        path.write_text(text)
+        (problem,) = scene_file.check(path)
+        assert problem.kind == "toml"
+
+
+def test_a_mesh_that_states_more_than_it_has(tmp_path):
+    path = tmp_path / "a.ply"
+    head = "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n"
+    for more in ("property float z\n", "property list uchar int z\n"):
+        path.write_bytes((head + more + "element face 1\nend_header\n").encode() + bytes(24))
+        with pytest.raises(DataError, match="states 4,000,000,000 elements"):
+            meshes.read(path)
+    accessor = {"count": 4_000_000_000, "componentType": 5126, "type": "VEC3"}
+    document = {"asset": {"version": "2.0"}, "accessors": [accessor], "bufferViews": [], "buffers": []}
+    gltf = tmp_path / "a.gltf"
+    gltf.write_text(json.dumps(document))
+    with pytest.raises(DataError, match="at most"):
+        meshes.read(gltf)
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    (tmp_path / "a.glb").write_bytes(
+        b"glTF" + struct.pack("<IIII", 2, 20 + len(text), len(text), 0x4E4F534A) + text
+    )
+    with pytest.raises(DataError, match="at most"):
+        meshes.read(tmp_path / "a.glb")
+    document["accessors"][0]["count"] = 3
+    gltf.write_text(json.dumps(document))
+    with pytest.raises(DataError, match="without a buffer"):
+        meshes.read(gltf)
+
+
+def test_a_gltf_reads_buffers_of_the_scene_alone(tmp_path):
+    (tmp_path / "secret.bin").write_bytes(bytes(100))
+    (tmp_path / "in").mkdir()
+    document = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": 100, "uri": "../secret.bin"}]}
+    (tmp_path / "in" / "a.gltf").write_text(json.dumps(document))
+    with pytest.raises(DataError, match="lies outside"):
+        meshes.read(tmp_path / "in" / "a.gltf", within=tmp_path / "in")
+
+
+def exr(path: Path, width: int, height: int, channels: int = 3) -> Path:
+    """A header of an EXR without pixels."""
+
+    def attribute(name: bytes, kind: bytes, data: bytes) -> bytes:
+        return name + b"\0" + kind + b"\0" + struct.pack("<i", len(data)) + data
+
+    names = [b"B", b"G", b"R", *(b"c%05d" % i for i in range(channels - 3))]
+    listed = b"".join(name + b"\0" + struct.pack("<iBxxxii", 2, 0, 1, 1) for name in names) + b"\0"
+    window = struct.pack("<iiii", 0, 0, width - 1, height - 1)
+    head = b"\x76\x2f\x31\x01" + struct.pack("<i", 2)
+    head += attribute(b"channels", b"chlist", listed) + attribute(b"compression", b"compression", b"\3")
+    head += attribute(b"dataWindow", b"box2i", window) + attribute(b"displayWindow", b"box2i", window)
+    head += attribute(b"lineOrder", b"lineOrder", b"\0")
+    head += attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1))
+    head += attribute(b"screenWindowCenter", b"v2f", bytes(8))
+    head += attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1))
+    path.write_bytes(head + b"\0" + bytes(64))
+    return path
+
+
+def test_an_image_that_states_more_than_it_has(tmp_path):
+    held = machine.peak_memory()
+    for image in (exr(tmp_path / "a.exr", 100_000, 100_000), exr(tmp_path / "b.exr", 100, 100, 5000)):
+        with pytest.raises(ImageError):
+            pixels.read(image)
+        with pytest.raises((ImageError, MachineError)):
+            illuminant.Image.open(image)
+    assert machine.peak_memory() - held < 300e6
+
+
+def test_archives_that_swell(tmp_path):
+    stream = io.BytesIO()
+    np.savez_compressed(stream, scene=np.zeros(10_000_000))
+    with pytest.raises(ValueError, match="compressed"):
+        archives.read(stream)
+    member = io.BytesIO()
+    np.lib.format.write_array_header_1_0(member, {"descr": "<f8", "fortran_order": False, "shape": (10**12,)})
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as archive:
+        archive.writestr("scene.npy", member.getvalue())
+    with pytest.raises(ValueError, match="too short"):
+        archives.read(stream)
+    path = tmp_path / "a.scene"
+    path.write_bytes(stream.getvalue())
+    with pytest.raises(SceneError, match="is not a scene"):
+        illuminant.load(path)
+
+
+# --- memory -------------------------------------------------------------------------------------------------------
+
+
+def test_a_limit_that_is_none():
+    for text in ("4XB", "-1", "much", "1e9", "0", ""):
+        with pytest.raises(UsageError, match="expected an amount of memory"), machine.limited_to(text):
+            pass
+
+
+def test_work_above_the_limit_is_refused_with_its_parts():
+    cornell = illuminant.load(ROOT / "scenes/cornell.toml")
+    with pytest.raises(
+        MachineError, match=r"needs about .* beside the .* in use, and --memory-limit is 1\.0 GB"
+    ):
+        illuminant.render(cornell, size=(8000, 8000), samples=1, memory_limit="1GB")
+    with pytest.raises(MachineError, match=r"\(radiosity [0-9.]+ GB, .*--memory-limit is 1\.0 GB"):
+        illuminant.render(cornell, technique="radiosity", elements=200_000, memory_limit="1GB")
+    done = run("render", ROOT / "scenes/cornell.toml", "--size", "8000x8000", "--memory-limit", "500MB")
+    assert done.returncode == 3
+    assert "--memory-limit is 500 MB" in done.stderr
+
+
+def test_a_limit_is_no_part_of_the_image():
+    cornell = illuminant.load(ROOT / "scenes/cornell.toml")
+    one = illuminant.render(cornell, size=(8, 8), samples=1)
+    other = illuminant.render(cornell, size=(8, 8), samples=1, memory_limit="8TB")
+    assert one.settings == other.settings
+
+
+MEASURED = """
+import sys, json
+from illuminant import job_memory, machine
+from illuminant.core import core, embree
+from illuminant.job import Job
+from illuminant.scene import Scene
+embree(), core()
+import numpy, OpenImageIO
+scene = Scene.load(sys.argv[1])
+held, found, check = machine.resident(), [], job_memory.parts
+job_memory.parts = lambda *given: found.append(check(*given)) or found[-1]
+job = Job(scene, **json.loads(sys.argv[2]))
+for _ in job.passes():
+    pass
+job.image()
+print(held + sum(found[0].values()), machine.peak_memory())
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("cornell", {"samples": 1, "size": [1200, 1200]}),
+        ("cornell", {"samples": 1, "size": [1000, 1000], "keep_spectra": True}),
+        ("cornell", {"samples": 1, "size": [16, 16], "technique": "radiosity", "light_samples": 1}),
+        ("bunny", {"samples": 1, "size": [600, 600], "layers": "depth,normal,albedo"}),
+        ("tiles", {"samples": 1, "size": [600, 600]}),
+    ],
+)
+def test_the_estimate_is_not_below_what_is_measured(name, options):
+    done = subprocess.run(
+        [sys.executable, "-c", MEASURED, str(ROOT / f"scenes/{name}.toml"), json.dumps(options)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=True,
+    )
+    estimate, measured = map(int, done.stdout.split())
+    assert measured <= estimate <= 1.6 * measured
+
+
+def test_a_limit_of_gigabytes_takes_no_memory():
+    """A scene of small files is read in a process that may have a gigabyte and a half, whatever the limits are."""
+    code = (
+        "import resource; resource.setrlimit(resource.RLIMIT_AS, (1_500_000_000,) * 2)\n"
+        f"from illuminant.scene import Scene; Scene.load({str(ROOT / 'scenes/demo.toml')!r})"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_header_cannot_smuggle_a_command():
+    from illuminant.info import remake
+
+    for text in ("rm -rf ~", "illuminant compare a.toml; rm -rf ~", "illuminant compare 'a"):
+        said = remake({"scene": "a.toml", "command": text}, Path("a b.png"), None)
+        assert said is None or ";" not in said.replace("'a.toml;'", "")
+    told = {"scene": "a.toml", "command": "illuminant compare a.toml --samples 4"}
+    assert remake(told, Path("a b.png"), None) == "illuminant compare a.toml --samples 4 -o 'a b.png'"
+
+
+def test_a_large_table_is_read_in_the_time_that_its_size_takes():
+    from illuminant.core import core
+
+    def seconds(count: int) -> float:
+        text = "a = [\n" + "1,\n" * count + "]\n"
+        start = time.process_time()
+        data, lines = core().parse_toml(text)
+        assert lines[("a", count - 1)] == count + 1
+        assert len(data["a"]) == count
+        return time.process_time() - start
+
+    assert seconds(160_000) < 20.0 * seconds(20_000), "eight times as much; it was sixty-four times as long"
+
+
+# --- the page -----------------------------------------------------------------------------------------------------
+
+
+def test_the_table_of_limits_is_that_of_the_code():
+    rows = re.findall(
+        r"^\| .+? \| ([\d,]+)(?: bytes)? \| `illuminant\.([\w.]+)\.(\w+)` \|$",
+        (ROOT / "docs/security.md").read_text(encoding="utf-8"),
+        re.MULTILINE,
+    )
+    assert len(rows) > 15
+    for number, module, constant in rows:
+        value = getattr(importlib.import_module(f"illuminant.{module}"), constant)
+        assert int(number.replace(",", "")) == value, f"{module}.{constant}"
