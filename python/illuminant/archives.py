@@ -69,6 +69,8 @@ def array(stream: IO[bytes], size: int) -> np.ndarray:
         ValueError: it is none, holds Python objects, or states another shape than it has numbers for.
     """
     import math
+    import warnings
+    from tokenize import TokenError
 
     import numpy as np
     from numpy.lib import format as npy
@@ -77,7 +79,12 @@ def array(stream: IO[bytes], size: int) -> np.ndarray:
     if version not in ((1, 0), (2, 0)):
         raise ValueError(f"has the version {version[0]}.{version[1]} of NumPy's format")
     read_header = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
-    shape, by_columns, kind = read_header(stream)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # that an array of Python 2 is slow to read
+            shape, by_columns, kind = read_header(stream)
+    except (SyntaxError, TokenError) as error:  # the header is an expression of Python
+        raise ValueError("has a damaged header") from error
     if kind.hasobject:
         raise ValueError("holds Python objects")
     needed = math.prod(shape) * kind.itemsize

@@ -278,7 +278,8 @@ class Image:
             from illuminant import rgb_system
 
             system = rgb_system.named(rgb)
-            colour = self.xyz @ np.asarray(system["from_xyz"]).T
+            with np.errstate(invalid="ignore", over="ignore"):  # an infinite pixel becomes no number
+                colour = self.xyz @ np.asarray(system["from_xyz"]).T
             chromaticities = rgb_system.chromaticities(system)
             attributes["rgbSystem"] = str(system["name"])
         contents = exr.Contents(

@@ -170,17 +170,22 @@ class KeptSpectra:
             points, count = last - first + 1, len(wavelengths)
             curves = np.array(found["curves"], np.float64).reshape(-1, points)
             lanes = np.array(found["lanes"], np.float64).reshape(-1, count)
-            lamps = tuple(
-                LampLight(
-                    str(lamp["name"]),
-                    curves[int(lamp["curve"])] * float(lamp["factor"]),
-                    lanes[int(lamp["curve"])] * float(lamp["factor"]),
+            with np.errstate(all="ignore"):  # what is no number is refused below
+                lamps = tuple(
+                    LampLight(
+                        str(lamp["name"]),
+                        curves[int(lamp["curve"])] * float(lamp["factor"]),
+                        lanes[int(lamp["curve"])] * float(lamp["factor"]),
+                    )
+                    for lamp in found["lamps"]
                 )
-                for lamp in found["lamps"]
-            )
             reflectances = np.array(found["reflectances"], np.float64).reshape(-1, points)
             numbers = [wavelengths, curves, lanes, reflectances]
-            if not all(np.isfinite(array).all() for array in numbers) or not (np.diff(wavelengths) > 0).all():
+            of_lamps = [part for lamp in lamps for part in (lamp.spectrum, lamp.lanes)]
+            if (
+                not all(np.isfinite(array).all() for array in [*numbers, *of_lamps])
+                or not (np.diff(wavelengths) > 0).all()
+            ):
                 raise ValueError
             return cls(
                 str(found["sampling"]),
@@ -191,7 +196,7 @@ class KeptSpectra:
                 tuple(str(name) for name in found["develop_for"]),
                 bool(found["fog"]),
             )
-        except (ValueError, KeyError, TypeError, IndexError, AttributeError, OverflowError):
+        except (ValueError, KeyError, TypeError, IndexError, AttributeError, OverflowError, RecursionError):
             raise ImageError(
                 "its attribute illuminant:basis, which says what its lanes mean, is damaged"
             ) from None

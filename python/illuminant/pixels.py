@@ -13,8 +13,9 @@ Example:
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from illuminant import machine, sources
 from illuminant.errors import ImageError
@@ -55,7 +56,7 @@ def read(path: str | os.PathLike[str]) -> tuple[np.ndarray, bool]:
         raise ImageError(f"{path}: {error.message}") from None
     source = oiio.ImageInput.open(str(path))
     if source is None:
-        raise ImageError(f"{path}: cannot be read as an image ({_clause(oiio.geterror())})")
+        raise ImageError(f"{path}: cannot be read as an image ({_clause(oiio.geterror)})")
     try:
         spec = source.spec()
         if not 0 < spec.width * spec.height <= MAX_PIXELS or spec.depth > 1:
@@ -67,8 +68,8 @@ def read(path: str | os.PathLike[str]) -> tuple[np.ndarray, bool]:
         machine.check_file(path, spec.width * spec.height * (4 * spec.nchannels + BYTES_A_PIXEL))
         pixels = source.read_image(0, 0, 0, spec.nchannels, "float")
         if pixels is None:
-            raise ImageError(f"{path}: is damaged ({_clause(source.geterror())})")
-        names = [name.upper() for name in spec.channelnames]
+            raise ImageError(f"{path}: is damaged ({_clause(source.geterror)})")
+        names = _names(spec)
         whole_numbers = spec.format.basetype not in (oiio.HALF, oiio.FLOAT, oiio.DOUBLE)
     finally:
         source.close()
@@ -85,11 +86,28 @@ def decode_srgb(encoded: np.ndarray) -> np.ndarray:
     """Linear values from sRGB's (IEC 61966-2-1), both from 0 to 1."""
     import numpy as np
 
-    encoded = np.asarray(encoded, np.float64)
-    return np.where(
-        encoded <= 0.04045, encoded / 12.92, ((np.maximum(encoded, 0.04045) + 0.055) / 1.055) ** 2.4
-    )
+    encoded = np.asarray(encoded)
+    linear = np.empty(encoded.shape, np.float64 if encoded.dtype == np.float64 else np.float32)
+    # Row by row: in double precision at once, a large image would take many times its memory.
+    for row, found in zip(encoded.reshape(len(encoded), -1), linear.reshape(len(encoded), -1), strict=True):
+        exact = row.astype(np.float64)
+        found[:] = np.where(
+            exact <= 0.04045, exact / 12.92, ((np.maximum(exact, 0.04045) + 0.055) / 1.055) ** 2.4
+        )
+    return linear
 
 
-def _clause(text: str) -> str:
-    return " ".join(text.split()).rstrip(".") or "unknown reason"
+def _names(spec: Any) -> list[str]:
+    """The channels; where their names are no text, by their order."""
+    try:
+        return [name.upper() for name in spec.channelnames]
+    except UnicodeDecodeError:
+        return [""] * int(spec.nchannels)
+
+
+def _clause(ask: Callable[[], str]) -> str:
+    """What the library says of its failure, which may quote bytes that are no text."""
+    try:
+        return " ".join(ask().split()).rstrip(".") or "unknown reason"
+    except UnicodeDecodeError:
+        return "its header is damaged"

@@ -123,8 +123,9 @@ class Mesh:
         """The same mesh under a 3 × 3 matrix that keeps orientation (a scale, a change of axes)."""
         import numpy as np
 
-        normals = None if self.normals is None else _unit(self.normals @ np.linalg.inv(linear))
-        return Mesh(self.positions @ linear.T, self.indices, normals, self.uvs)
+        with np.errstate(all="ignore"):  # what becomes no number is refused by `checked`
+            normals = None if self.normals is None else _unit(self.normals @ np.linalg.inv(linear))
+            return Mesh(self.positions @ linear.T, self.indices, normals, self.uvs)
 
     def reversed(self) -> Mesh:
         """The same mesh with the front of its faces on the other side (the vertex normals stay)."""
@@ -169,10 +170,11 @@ def mesh_from_arrays(positions: Any, faces: Any, normals: Any = None, uvs: Any =
             raise DataError(f"{name} has {len(table)} rows where positions has {len(points)}")
         extra.append(table)
     if extra[0] is not None:
-        length = np.linalg.norm(extra[0], axis=1, keepdims=True)
-        if (length == 0).any():
-            raise DataError(f"normal {int(np.argmin(length[:, 0]))} has no length")
-        extra[0] = extra[0] / length
+        with np.errstate(all="ignore"):  # what becomes no number is refused by `checked`
+            length = np.linalg.norm(extra[0], axis=1, keepdims=True)
+            if (length == 0).any():
+                raise DataError(f"normal {int(np.argmin(length[:, 0]))} has no length")
+            extra[0] = extra[0] / length
     return Mesh(points, indices, extra[0], extra[1])
 
 

@@ -390,7 +390,7 @@ def described(found: dict[str, Any], source: str) -> Display:
             _response(found.get("response", "sRGB")),
             **numbers,
         )
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         if isinstance(error, UsageError):
             raise DataError(f"{source}: {error}") from error
         raise DataError(

@@ -411,7 +411,9 @@ def read(path: str | os.PathLike[str]) -> RunLengthImage:
         with sources.opened(path, sys.maxsize) as file:
             # A file of another kind may be of any size.
             start = file.read(_HEADER.size)
-            content = start + (file.read(largest) if start.startswith(_MAGIC) else b"")
+            # Reading asks for memory before it knows how much there is to read.
+            rest = min(os.fstat(file.fileno()).st_size, largest)
+            content = start + (file.read(rest) if start.startswith(_MAGIC) else b"")
     except SourceError as error:
         raise ImageError(f"{path} cannot be read: {error.clause}.") from None
     return decode(content, str(Path(path)))
