@@ -78,7 +78,9 @@ def main() -> None:
     known = reports[2]
     for workers in (1, 2, 10, 100):
         seconds = model(known, workers)
-        print(f"| model, {workers} worker{'s' * (workers > 1)} | {seconds:.1f} | {alone / seconds:.2f} | | | | |")
+        print(
+            f"| model, {workers} worker{'s' * (workers > 1)} | {seconds:.1f} | {alone / seconds:.2f} | | | | |"
+        )
     megabytes = known.bytes / 1e6
     print(f"network and joining alone: {megabytes / NETWORK_MB + known.merging:.2f} s")
 
