@@ -226,6 +226,8 @@ def _part(geometry: Any, matrix: np.ndarray) -> Mesh:
     normals = geometry._cache.cache.get("vertex_normals")  # only those of the file: asking would make them
     uvs = getattr(geometry.visual, "uv", None)
     positions = np.array(geometry.vertices, dtype=np.float64)
+    if positions.ndim != 2 or positions.shape[1] != 3:
+        raise DataError("has vertices that are not three numbers each")
     mesh = Mesh(
         positions,
         np.array(geometry.faces, dtype=np.int64).reshape(-1, 3),
