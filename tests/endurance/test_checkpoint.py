@@ -68,7 +68,7 @@ def test_a_render_that_was_cut_off_goes_on_to_the_same_bits(scenes, tmp_path, ki
 
 def test_a_range_that_was_cut_off_is_completed_before_its_noise_decides(scenes, tmp_path):
     """Half a range of more samples in some tiles would look as if the image were good enough, or not."""
-    options = {"size": (64, 48), "error": 0.08, "samples": 1024}
+    options = {"size": (64, 48), "error": 0.04, "samples": 1024}
     whole = illuminant.render(scenes / "cornell.toml", **options)
     assert whole.settings["samples"] > 64
     for cut in (64, whole.settings["samples"] // 2 // 64 * 64):

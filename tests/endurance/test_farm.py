@@ -117,7 +117,7 @@ def test_it_ends_when_it_is_told(ray, scenes):
     assert 0 < image.statistics["samples"] < 64 * 64 * 10_000
 
 
-@pytest.mark.parametrize("kind", [{}, {"caustics": True}, {"error": 0.05, "samples": 512}], ids=str)
+@pytest.mark.parametrize("kind", [{}, {"caustics": True}, {"error": 0.04, "samples": 512}], ids=str)
 def test_it_takes_only_what_a_checkpoint_lacks(ray, scenes, kind):
     """One that was written within a range, where some tiles hold more than others."""
     options = {**SMALL, "samples": 200, **kind}
