@@ -13,6 +13,7 @@ import illuminant
 from illuminant.checkpoint import Checkpoint, Keeper
 from illuminant.errors import DataError, MachineError, UsageError
 from illuminant.job import Job
+from illuminant.rendering import RenderInterrupted
 
 SMALL = {"size": (40, 24), "samples": 24}
 KINDS = [
@@ -97,7 +98,7 @@ def test_ctrl_c_while_a_checkpoint_is_written_keeps_the_image(scenes, tmp_path, 
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Checkpoint, "write", interrupt)
-    with pytest.raises(illuminant.RenderInterrupted) as caught:
+    with pytest.raises(RenderInterrupted) as caught:
         illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=tmp_path / "image.ckpt")
     assert caught.value.image.statistics["least_samples"] == 24
 

@@ -180,7 +180,7 @@ def test_why_a_share_fails_on_its_worker_is_said(ray):
     with pytest.raises(
         MachineError, match=r"failed on a worker of the cluster: .*there is no Embree on worker 7"
     ):
-        list(dispatched(ray, broken, [(7,)], threads=1))
+        list(dispatched(ray, broken, [(0, (7,))], threads=1))
 
 
 def test_the_command_starts_and_stops_a_cluster(command, scenes, tmp_path):

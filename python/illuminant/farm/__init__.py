@@ -177,26 +177,26 @@ def render_job(
             job.done = next(iter(left))
             del left[job.done]
 
-    def calls() -> Iterator[tuple[Any, ...] | None]:
+    def calls() -> Iterator[tuple[_Share, tuple[Any, ...]] | None]:
         for start, end in _ranges(job):
             left[end] = 1  # until all of its shares are sent
             for one in sizes.shares(start, end):
                 left[end] += 1
-                yield work, one.samples, one.tiles, one.from_lamps, one
+                yield one, (work, one.samples, one.tiles, one.from_lamps)
             settle(end)
             if not _is_known(job):
                 yield None  # what is done decides on the next range
 
     try:
-        for call, brought in dispatched(
+        for done, brought in dispatched(
             ray, share, calls(), threads=threads, over=lambda: job.interrupted or job.stopped
         ):
             start = time.perf_counter()
             job.join(brought.part)
             report.merging += time.perf_counter() - start
             report.add(brought)
-            sizes.learn(call[-1], brought)
-            settle(call[-1].end)
+            sizes.learn(done, brought)
+            settle(done.end)
             if progress is not None and progress(job.progress_at(sizes.samples)) is False:
                 job.stopped = True
             if keeper is not None and keeper.due():
@@ -240,7 +240,7 @@ def solve(ray: Any, scene: Scene, settings: Settings, *, threads: int = 1) -> An
     del finder
     work = Work(f"{scene.hash()} {told}", told, threads, [ray.put(scene.to_bytes())])
     step = max(16, count // (8 * lanes(ray, threads)))
-    calls = ((work, first, min(first + step, count)) for first in range(0, count, step))
+    calls = ((first, (work, first, min(first + step, count))) for first in range(0, count, step))
     found = [result for _, result in dispatched(ray, rows, calls, threads=threads)]
     found.sort(key=lambda one: one.first)
     starts, end = [np.zeros(1, np.uint64)], 0

@@ -2,8 +2,8 @@
 
 Example:
     >>> with cluster(workers=2) as ray:                                            # doctest: +SKIP
-    ...     sorted(result for _, result in dispatched(ray, abs, [(-1,), (2,)], threads=1))
-    [1, 2]
+    ...     dict(dispatched(ray, abs, [("a", (-1,)), ("b", (2,))], threads=1))
+    {'a': 1, 'b': 2}
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ __all__ = ["MOST_RETRIES", "dispatched", "lanes"]
 MOST_RETRIES = 100
 """How often a call is done again whose worker died."""
 
-Call = TypeVar("Call", bound="tuple[Any, ...]")
+Key = TypeVar("Key")
 
 
 def lanes(ray: Any, threads: int) -> int:
@@ -42,17 +42,18 @@ def lanes(ray: Any, threads: int) -> int:
 def dispatched(
     ray: Any,
     function: Callable[..., Any],
-    calls: Iterable[Call | None],
+    calls: Iterable[tuple[Key, tuple[Any, ...]] | None],
     *,
     threads: int,
     over: Callable[[], bool] = lambda: False,
-) -> Iterator[tuple[Call, Any]]:
-    """Send calls, no more at a time than twice the workers, and yield each with its result, in the order of their ends.
+) -> Iterator[tuple[Key, Any]]:
+    """Send calls, no more at a time than twice the workers, and yield their results in the order of their ends.
 
     Args:
         ray: what `cluster` yields.
         function: runs on the workers.
-        calls: its arguments. Where there is a None, the next one is asked for when all before are done.
+        calls: for each a key, with which its result is yielded, and the arguments. Where there is a None, the next one
+            is asked for when all before are done.
         threads: processors that a call takes.
         over: whether the rest is wanted no more; what is under way is then cancelled.
 
@@ -61,7 +62,7 @@ def dispatched(
     """
     most = 2 * lanes(ray, threads)
     remote = ray.remote(num_cpus=threads, max_retries=MOST_RETRIES)(function)
-    waiting: dict[Any, Call] = {}
+    waiting: dict[Any, Key] = {}
     source, more, pausing = iter(calls), True, False
     try:
         while (more or waiting) and not over():
@@ -75,13 +76,14 @@ def dispatched(
                 if call is None:
                     pausing = bool(waiting)
                 else:
-                    waiting[remote.remote(*call)] = call
+                    key, arguments = call
+                    waiting[remote.remote(*arguments)] = key
             if not waiting:
                 continue
             ready, _ = ray.wait(list(waiting), num_returns=1, timeout=0.2)
             for reference in ready:
-                call = waiting.pop(reference)
-                yield call, ray.get(reference)
+                key = waiting.pop(reference)
+                yield key, ray.get(reference)
     except ray.exceptions.RayError as error:
         raise MachineError(f"The work failed on a worker of the cluster: {_cause(error)}.") from error
     finally:

@@ -99,7 +99,6 @@ def share(work: Work, samples: tuple[int, int], tiles: tuple[int, int] | None, f
         samples: first and last.
         tiles: first and last, by number.
         from_lamps: whether the paths from lamps of these samples are followed.
-        told: what the sender knows the share by.
     """
     began = time.perf_counter()
     render = _render(work)
