@@ -17,6 +17,9 @@ use pyo3::types::{PyBytes, PyDict};
 use std::sync::Arc;
 use std::time::Duration;
 
+/// Ranges of samples, in order.
+type Ranges = Vec<(u64, u64)>;
+
 /// Name, spectrum and samples of a lamp.
 type LampSpectrum<'py> = (String, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
@@ -145,7 +148,7 @@ impl PyRender {
     }
 
     /// The samples that each tile holds, as ranges in order; and those of which the paths from lamps have been followed.
-    fn seen(&self) -> (Vec<Vec<(u64, u64)>>, Vec<(u64, u64)>) {
+    fn seen(&self) -> (Vec<Ranges>, Ranges) {
         let of = |tile: &illuminant_technique::TileFilm| {
             tile.seen().iter().map(|range| (range.start, range.end)).collect::<Vec<_>>()
         };
