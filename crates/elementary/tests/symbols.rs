@@ -41,7 +41,12 @@ fn functions_of_the_standard_library_are_these() {
 
 /// Whether a number in f32 is the one nearest to an exact value, which f64 knows to a billionth of an ulp of f32.
 fn is_nearest(found: f32, exact: f64) -> bool {
-    let (below, above) = (f64::from(found.next_down()), f64::from(found.next_up()));
+    let next = |step: u32| f64::from(f32::from_bits(found.to_bits().wrapping_add(step)));
+    let (below, above) = if found == 0.0 {
+        (-f64::from(f32::from_bits(1)), f64::from(f32::from_bits(1)))
+    } else {
+        (next(u32::MAX), next(1))
+    };
     let apart = (f64::from(found) - exact).abs();
     let slack = 1e-14 * exact.abs();
     apart <= (above - exact).abs() + slack && apart <= (below - exact).abs() + slack
