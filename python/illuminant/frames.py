@@ -26,6 +26,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from illuminant import machine
 from illuminant.animation import Animation
 from illuminant.errors import ImageError, Interrupted, UsageError
 from illuminant.image import Image, Saved, check_output
@@ -156,7 +157,10 @@ def render_frames(
         ImageError, MachineError: a file cannot be written.
         Interrupted: Ctrl-C; the frame that was under way is not written.
     """
-    animation = scene if isinstance(scene, Animation) else Animation.load(scene, allow_outside=allow_outside)
+    with machine.limited_to(memory_limit):
+        animation = (
+            scene if isinstance(scene, Animation) else Animation.load(scene, allow_outside=allow_outside)
+        )
     numbers = frame_numbers(frames, animation.first, animation.last)
     sequence = _Sequence(animation, _patterns(output, animation, len(numbers)), options, look, rgb, half)
     for number in numbers:
@@ -165,17 +169,18 @@ def render_frames(
     if not again:
         sequence.adopt_exposure(numbers)
     before: Scene | None = None
-    for done, number in enumerate(numbers):
+
+    def frame(done: int, number: int) -> Frame:
+        nonlocal before
         scenes = [animation.still(number, field) for field in range(animation.times_of_fields)]
         files = sequence.files(number)
         if not again and sequence.finished(number, scenes):
-            yield Frame(number, animation.time(number), files, True)
-            continue
+            return Frame(number, animation.time(number), files, True)
         jobs = []
         for one in scenes:
             if before is not None:
                 one.share_geometry(before)
-            before = one
+            before = _shapes_of(one)
             job = Job(one, memory_limit=memory_limit, solve_by=solve_by, **options)
             if on_job is not None:
                 on_job(job)
@@ -190,7 +195,23 @@ def render_frames(
         saved = tuple(
             save(image, path, sequence.look, exposure=sequence.exposure, rgb=rgb, half=half) for path in files
         )
-        yield Frame(number, animation.time(number), files, False, image, saved, tuple(jobs))
+        return Frame(number, animation.time(number), files, False, image, saved, tuple(jobs))
+
+    for done, number in enumerate(numbers):
+        with machine.limited_to(memory_limit):
+            made = [frame(done, number)]
+        # Nothing here holds a frame any more when the next one is begun.
+        yield made.pop()
+
+
+def _shapes_of(scene: Scene) -> Scene:
+    """What the next frame may share of a scene: its shapes, without images and without what the core makes of it."""
+    import copy
+
+    found = copy.copy(scene)
+    found.arrays = {name: array for name, array in scene.arrays.items() if not name.startswith("image:")}
+    found._core = None
+    return found
 
 
 def _patterns(

@@ -198,7 +198,9 @@ class Job:
         lamps += sum(thing["emission"] is not None for thing in description["objects"])
         check_memory(self.settings, width * height, lamps)
         check_shadow_maps(self.settings, description)
-        job_memory.check(self.settings, self.scene, width * height, lamps)
+        solved = 0 if solution is not None else len(checkpoint.solution) if checkpoint is not None else 0
+        known = solution is not None or solved > 0
+        job_memory.check(self.settings, self.scene, width * height, lamps, solved if known else None)
         embree()
         self._spent, self._kept_solution = 0.0, b""
         if checkpoint is not None:

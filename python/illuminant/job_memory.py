@@ -10,8 +10,9 @@
 | shadow maps | `film_memory.shadow_map_memory`, at most | fewer where a lamp sees part of the scene |
 
 How many form factors there will be is a guess: 1.3 sides for each element (2 where sheets are lit from both sides),
-and for each side as many as it sees patches, at most 0.75 of its rays. What the process holds already (packages, the
-arrays of the scene) is no part of this; `machine.resident` measures it.
+and for each side as many as it sees patches, at most 0.75 of its rays. What the process holds already is no part of
+this, since `machine` counts it as used: packages, the arrays of the scene, a ray structure and images that the core has
+from an earlier render of the same scene, and light between surfaces that was solved for before.
 
 Example:
     >>> from illuminant.scene import Scene
@@ -44,11 +45,15 @@ LIBRARIES = 50_000_000
 
 BYTES_A_TRIANGLE, BYTES_A_PIXEL, BYTES_A_FACTOR = 100, 50, 18.5
 SIDES_AN_ELEMENT, FACTORS_A_RAY = 1.3, 0.75
+COPIES = 2
+"""Of the bytes of a solution while it is read: its arrays, and those of the core."""
 ELEMENTS_MORE = 1.2
 """How many more elements there may be than asked for, beside one for each triangle."""
 
 
-def parts(settings: Settings, scene: Scene, pixels: int, lamps: int) -> dict[str, int]:
+def parts(
+    settings: Settings, scene: Scene, pixels: int, lamps: int, solution: int | None = None
+) -> dict[str, int]:
     """Bytes of each part that there is, beside what the process holds.
 
     Args:
@@ -56,6 +61,8 @@ def parts(settings: Settings, scene: Scene, pixels: int, lamps: int) -> dict[str
         scene: what is rendered.
         pixels: of the image, or its crop.
         lamps: how many lamps the scene has.
+        solution: bytes from which the light between surfaces is still to be read; 0 where the core has it already,
+            None where it must be solved for.
     """
     arrays = scene.arrays
     shapes = [array for name, array in arrays.items() if name.startswith("shape:")]
@@ -63,15 +70,18 @@ def parts(settings: Settings, scene: Scene, pixels: int, lamps: int) -> dict[str
     images = sum(
         array.shape[0] * array.shape[1] for name, array in arrays.items() if name.startswith("image:")
     )
+    geometry = sum(array.nbytes for array in shapes if array.nbytes > 32) + BYTES_A_TRIANGLE * faces
+    built = scene._geometry.core is not None
     found = {
-        "libraries": LIBRARIES,
+        "libraries": 0 if built else LIBRARIES,
         "film and image": memory_needed(settings, pixels, lamps),
-        "geometry": sum(array.nbytes for array in shapes if array.nbytes > 32) + BYTES_A_TRIANGLE * faces,
-        "textures and environments": BYTES_A_PIXEL * images,
+        "geometry": 0 if built else geometry,
+        "textures and environments": 0 if scene._core is not None else BYTES_A_PIXEL * images,
         "shadow maps": shadow_map_memory(settings, scene.description),
     }
     if settings.technique in SOLVED or settings.technique == "specular-radiosity":
-        found["radiosity"] = _radiosity(settings, scene.triangles)
+        solved = solution is not None
+        found["radiosity"] = COPIES * (solution or 0) if solved else _radiosity(settings, scene.triangles)
     return {name: count for name, count in found.items() if count}
 
 
@@ -94,13 +104,13 @@ def _radiosity(settings: Settings, triangles: int) -> int:
     return int(BYTES_A_FACTOR * sides * each + dense + 40 * values * sides)
 
 
-def check(settings: Settings, scene: Scene, pixels: int, lamps: int) -> None:
-    """Refuse what does not fit into the memory that may be used (`machine.limited_to`).
+def check(settings: Settings, scene: Scene, pixels: int, lamps: int, solution: int | None = None) -> None:
+    """Refuse what does not fit into the memory that may be used (`machine.limited_to`); arguments as `parts`.
 
     Raises:
         MachineError: one sentence with both amounts and the largest parts.
     """
-    found = parts(settings, scene, pixels, lamps)
+    found = parts(settings, scene, pixels, lamps, solution)
     largest = sorted(found, key=lambda name: -found[name])[:3]
     told = ", ".join(f"{name} {machine.size(found[name])}" for name in largest)
     machine.refuse(f"This render ({told})", sum(found.values()))

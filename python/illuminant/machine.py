@@ -11,7 +11,7 @@ import os
 import re
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from pathlib import Path
 
@@ -21,6 +21,7 @@ __all__ = [
     "amount",
     "check_file",
     "cores",
+    "give_back",
     "limited_to",
     "memory",
     "memory_available",
@@ -32,6 +33,8 @@ __all__ = [
 
 _limit: ContextVar[int | None] = ContextVar("memory limit", default=None)
 """Bytes that this process shall not exceed in all."""
+
+_GROUP = Path("/sys/fs/cgroup")
 
 _UNITS = {"": 1, "B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "TB": 10**12}
 _UNITS |= {"K": 2**10, "M": 2**20, "G": 2**30, "KIB": 2**10, "MIB": 2**20, "GIB": 2**30, "TIB": 2**40}
@@ -56,7 +59,7 @@ def _meminfo(key: str) -> int | None:
 def _group(name: str) -> int | None:
     """A number of the control group (containers have their own limit); None where there is none, or no limit."""
     try:
-        text = Path("/sys/fs/cgroup", name).read_text(encoding="ascii").strip()
+        text = (_GROUP / name).read_text(encoding="ascii").strip()
     except OSError:
         return None
     return int(text) if text.isdigit() else None
@@ -95,8 +98,19 @@ def _free() -> int | None:
     known = [one for one in (_meminfo("MemAvailable"), _address_space()) if one is not None]
     limit, used = _group("memory.max"), _group("memory.current")
     if limit is not None and used is not None:
-        known.append(max(0, limit - used))
+        # Files that were read lately are counted as used, and make room when it is asked for.
+        known.append(max(0, limit - max(0, used - _given_up())))
     return min(known) if known else None
+
+
+def _given_up() -> int:
+    """Bytes of the control group that the system takes back by itself: pages of files that nobody uses."""
+    try:
+        lines = (_GROUP / "memory.stat").read_text(encoding="ascii").splitlines()
+    except OSError:
+        return 0
+    words = (line.split() for line in lines)
+    return next((int(word[1]) for word in words if len(word) == 2 and word[0] == "inactive_file"), 0)
 
 
 def _left() -> int | None:
@@ -175,6 +189,11 @@ def refuse(what: str, needed: int, advice: str = "") -> None:
     free, left = memory_available(), _left()
     if free is None or needed <= free:
         return
+    # The C library keeps what an earlier render has freed, and the system counts it as used.
+    give_back()
+    free, left = memory_available(), _left()
+    if free is None or needed <= free:
+        return
     end = f": {advice}." if advice else "."
     if left is not None and left <= free:
         held, limit = resident(), _limit.get() or 0
@@ -183,6 +202,18 @@ def refuse(what: str, needed: int, advice: str = "") -> None:
             f"{size(limit)}{end}"
         )
     raise MachineError(f"{what} needs about {size(needed)} of memory, and {size(free)} are free{end}")
+
+
+def give_back() -> None:
+    """Give memory that was freed back to the system, if the C library can (`malloc_trim` of glibc)."""
+    import ctypes
+    import gc
+
+    gc.collect()
+    with suppress(OSError, TypeError):
+        library = ctypes.CDLL(None)
+        if hasattr(library, "malloc_trim"):
+            library.malloc_trim(0)
 
 
 def peak_memory() -> int:

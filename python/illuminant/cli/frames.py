@@ -37,7 +37,7 @@ def render_frames(
         json: whether the result goes to stdout as JSON.
         stop: ends the work when a person asks for it.
     """
-    from illuminant import frames
+    from illuminant import frames, machine
     from illuminant.animation import Animation
     from illuminant.cli.render import _save, done_by
     from illuminant.cli.report import emit_json, note, progress_bar, warning
@@ -45,7 +45,8 @@ def render_frames(
     began = time.monotonic()
     options = dict(options)
     allow_outside, memory_limit = options.pop("allow_outside"), options.pop("memory_limit")
-    animation = Animation.load(scene, allow_outside=allow_outside)
+    with machine.limited_to(memory_limit):
+        animation = Animation.load(scene, allow_outside=allow_outside)
     worker = done_by.get()
     done: list[dict[str, Any]] = []
     warned: set[str] = set()
@@ -81,6 +82,9 @@ def render_frames(
                 done.append(facts)
                 if not json:
                     note(_line(facts))
+                # Its film makes room for that of the next one.
+                del frame
+                stop.job = None
         finally:
             if json:
                 emit_json(done)
@@ -92,24 +96,29 @@ def render_frames(
         note(f"{len(done)} frame{'' if len(done) == 1 else 's'}: {', '.join(parts)}, {_seconds(began)}")
 
 
-def one_frame(scene: Path, wanted: str, pixel: str, *, allow_outside: bool) -> Scene:
+def one_frame(
+    scene: Path, wanted: str, pixel: str, *, allow_outside: bool, memory_limit: str | None = None
+) -> Scene:
     """The scene of the frame whose pixel is asked for.
 
     Raises:
         UsageError: more than one frame is named.
     """
+    from illuminant import machine
     from illuminant.animation import Animation
     from illuminant.errors import UsageError
     from illuminant.frames import frame_numbers
 
-    animation = Animation.load(scene, allow_outside=allow_outside)
+    with machine.limited_to(memory_limit):
+        animation = Animation.load(scene, allow_outside=allow_outside)
     numbers = frame_numbers(wanted, animation.first, animation.last)
     if len(numbers) > 1:
         raise UsageError(f"--pixel {pixel}: goes with --frames for one frame, not {len(numbers)}.")
     row = pixel.partition(",")[2].strip()
     odd = not row.isdigit() or int(row) % 2 == 0  # rows are counted from 0, lines from 1
     second = animation.fields == ("even-first" if odd else "odd-first")
-    return animation.still(numbers[0], int(second))
+    with machine.limited_to(memory_limit):
+        return animation.still(numbers[0], int(second))
 
 
 def _seconds(began: float) -> str:

@@ -427,7 +427,7 @@ def render(
 
             bounds = {"allow_outside": allow_outside, "memory_limit": memory_limit}
             if pixel is not None:
-                still = one_frame(scene, frames, pixel, allow_outside=allow_outside)
+                still = one_frame(scene, frames, pixel, **bounds)
                 job = stop.watch(Job(still, memory_limit=memory_limit, **options))
                 _print_path(job, pixel, sample or 0, json)
                 return
