@@ -9,8 +9,8 @@ Frame n is at n / `frames_per_second`. With fields (book 5.5) a frame holds two,
 
 While the camera's `shutter` is open (a fraction of the time to the next frame or field) a keyed camera moves from
 where it is at the frame's time to where it is at the next, straight on; keyed objects get the key `motion`, with
-enough steps for their turns. All else, lamps and materials and shapes, stays as it is at the frame's time. A camera
-that does not state its `shutter` makes sharp frames.
+enough steps for their turns. All else, lamps and materials and shapes, stays as it is at the frame's time; so does
+what changes in steps, or a cut would be smeared. A camera that does not state its `shutter` makes sharp frames.
 
 Example:
     >>> animation = Animation.build({
@@ -299,9 +299,14 @@ class Animation:
         Args:
             time: in seconds.
         """
+        return self._data(time, time)
+
+    def _data(self, time: float, opened: float) -> dict[str, Any]:
+        """The tables at a time while a shutter is open, which opened at another: steps are cuts and wait until then."""
         tables = dict(self.tables)
         for track in self.tracks:
-            tables = _with(tables, track.path, track.at(time))
+            at = opened if track.interpolation == "step" else time
+            tables = _with(tables, track.path, track.at(at))
         return tables
 
     def still(self, frame: int, field: int = 0) -> Scene:
@@ -351,7 +356,7 @@ class Animation:
         camera = tables.get("camera")
         if not isinstance(camera, dict) or camera.get("shutter") is None:
             return tables
-        after = self.data(time + duration)
+        after = self._data(time + duration, time)
         keyed = {track.path[1] for track in self.tracks if track.path[0] == "camera" and len(track.path) > 1}
         moved = {
             key: after["camera"][key] for key in VIEW if key in keyed and after["camera"][key] != camera[key]
@@ -363,7 +368,8 @@ class Animation:
             if any(thing.get(key) != end.get(key) for key in MOVES):
                 count = min(max(STEPS, math.ceil(self._turn(name, time, duration) / DEGREES)), MOST_STEPS)
                 steps = [
-                    self.data(time + duration * step / count)["objects"][name] for step in range(1, count + 1)
+                    self._data(time + duration * step / count, time)["objects"][name]
+                    for step in range(1, count + 1)
                 ]
                 motion = [{key: step[key] for key in MOVES if key in step} for step in steps]
                 tables["objects"] = tables["objects"] | {name: thing | {"motion": motion}}
@@ -373,7 +379,7 @@ class Animation:
         """How far an object turns in a frame, at most, in degrees."""
         total = 0.0
         for track in self.tracks:
-            if track.path[:3] == ("objects", name, "rotate"):
+            if track.path[:3] == ("objects", name, "rotate") and track.interpolation != "step":
                 total += _angle(track.at(time), track.at(time + duration))
         return total
 

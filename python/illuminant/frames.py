@@ -322,7 +322,8 @@ class _Sequence:
             return False
         if not isinstance(found, dict):
             return False
-        unsure = {"dropped", "samples"} if self._open_ended else {"dropped"}
+        # The scene is told by its hash; its path is as it was given, and another way to it leads to the same.
+        unsure = {"dropped", "scene"} | ({"samples"} if self._open_ended else set())
         return {key: value for key, value in found.items() if key not in unsure} == {
             key: value for key, value in wanted.items() if key not in unsure
         }

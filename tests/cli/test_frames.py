@@ -89,6 +89,13 @@ def test_finished_frames_are_passed_over_and_the_others_made(moving: Path, insid
     assert [one["skipped"] for one in facts] == [False, False, False]
 
 
+def test_the_way_to_the_scene_makes_no_frame_anew(moving: Path, inside: Command) -> None:
+    words = ["--frames", "1", "-o", "f.####.png", "-o", "f.####.exr", "--samples", "1", "--json"]
+    for scene, skipped in ((moving.name, False), (f"./{moving.name}", True), (moving, True)):
+        done = inside("render", scene, *words, cwd=moving.parent)
+        assert json.loads(done.stdout)[0]["skipped"] is skipped, done.stderr
+
+
 @pytest.mark.parametrize(
     ("more", "skipped"),
     [

@@ -336,6 +336,30 @@ def test_a_scene_without_an_animation_has_no_frames(scenes):
         Animation.load(scenes / "cornell.toml")
 
 
+@pytest.mark.parametrize("key", ["camera.eye", "objects.cube.translate"])
+def test_a_cut_is_not_smeared(key):
+    """What is keyed in steps jumps between two frames, also beside something that moves."""
+    values = "[[0, 1, 4], [3, 1, 4]]"
+    text = shuttered(
+        keyed(key, "[0, 0.33333333333]", values, 'interpolation = "step"\n')
+        + '[animation.keys."camera.target"]\ntimes = [0, 1]\nvalues = [[0, 0.5, 0], [1, 0.5, 0]]\n'
+        + '[animation.keys."objects.cube.rotate.degrees"]\ntimes = [0, 1]\nvalues = [0, 90]\n'
+    )
+    animation = animation_of(text)
+    tables = animation._moving(animation.time(9), 1 / 30)
+    assert tables["camera"]["moves_to"].keys() == {"target"}
+    motion = tables["objects"]["cube"]["motion"]
+    assert motion[-1]["rotate"]["degrees"] == pytest.approx(30.0)
+    assert all(step.get("translate") == tables["objects"]["cube"].get("translate") for step in motion)
+    before, after = animation.data(animation.time(9)), animation.data(animation.time(10))
+    assert before != after and before["camera"]["target"] != after["camera"]["target"]
+    group, *inner = key.split(".")
+    for part in inner:
+        before[group], after[group] = before[group][part], after[group][part]
+    assert (before[group], after[group]) == ([0, 1, 4], [3, 1, 4])
+    animation.still(9)
+
+
 def test_the_turntable_turns(scenes):
     animation = Animation.load(scenes / "turntable.toml")
     assert {track.path[0] for track in animation.tracks} == {"camera", "objects", "materials"}

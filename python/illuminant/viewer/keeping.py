@@ -5,6 +5,7 @@ Names are made of the scene's and a number that is free, so nothing is overwritt
 
 from __future__ import annotations
 
+import copy
 import os
 import shlex
 import threading
@@ -20,7 +21,7 @@ from illuminant.viewer.tables import relocate
 if TYPE_CHECKING:
     from illuminant.viewer.session import Session
 
-__all__ = ["command", "image", "received", "scene", "solution", "spectrum"]
+__all__ = ["command", "image", "names_outside", "received", "scene", "solution", "spectrum"]
 
 LOCK = threading.RLock()
 """Two pages that keep at once get different names."""
@@ -61,6 +62,8 @@ def scene(session: Session) -> list[Path]:
     import tomlkit
 
     document: Any = tomlkit.parse(sources.read(path, MAX_BYTES).decode("utf-8-sig"))
+    if "animation" in document:
+        _hold_first_frame(document, Path(path))
     for kind in ("materials", "lights"):
         before, now = session.start.tables.get(kind, {}), session.state.tables.get(kind, {})
         for name, table in now.items():
@@ -74,6 +77,17 @@ def scene(session: Session) -> list[Path]:
     relocate(document, Path(path).parent, lambda file: Path(os.path.relpath(file, target.parent)))
     output.write_bytes(target, tomlkit.dumps(document).encode())
     return [target]
+
+
+def names_outside(session: Session, folder: Path) -> bool:
+    """Whether the scene as it stands, written into a folder, could be read with `allow_outside` only."""
+    names = relocate(copy.deepcopy(session.state.tables), Path(), Path.absolute)
+    try:
+        for name in names:
+            sources.located(name, folder)
+    except sources.SourceError:
+        return True
+    return session.allow_outside
 
 
 def spectrum(session: Session) -> list[Path]:
@@ -108,10 +122,11 @@ def solution(session: Session) -> list[Path]:
     Raises:
         UsageError: the technique has none, or it is not there yet.
     """
-    if session.refiner.solution is None:
+    found = session.refiner.solution
+    if found is None:
         raise UsageError("There is no solution: choose radiosity or hybrid, and wait for it.")
     target = _free(session, "view", ".solution")
-    session.refiner.solution.save(target)
+    found.save(target)
     return [target]
 
 
@@ -146,6 +161,8 @@ def command(session: Session) -> str:
     file = scene(session)[0]
     camera = session.camera()
     words = ["illuminant", "render", str(file), "-o", f"{file.stem}.png"]
+    if names_outside(session, file.parent):
+        words.append("--allow-outside")
     words += [
         "--technique",
         state.technique,
@@ -178,6 +195,20 @@ def _free(session: Session, what: str, ending: str) -> Path:
         if not path.exists():
             return output.check(path)
     raise UsageError(f"{session.folder} holds 9,999 of these files already.")
+
+
+def _hold_first_frame(document: Any, path: Path) -> None:
+    """Make a document the still scene of an animation's first frame, which is what the page shows."""
+    from illuminant.animation import Animation
+    from illuminant.report import Report
+
+    animation = Animation.read(document.unwrap(), Report(str(path)), path.parent)
+    for track in animation.tracks:
+        holder = document
+        for part in track.path[:-1]:
+            holder = holder[part]
+        holder[track.path[-1]] = track.at(animation.time(animation.first))
+    del document["animation"]
 
 
 def _update(target: Any, table: Mapping[str, Any]) -> None:

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from illuminant.scene import Scene
     from illuminant.viewer.state import State
 
-__all__ = ["Frame", "Refiner", "Request"]
+__all__ = ["Found", "Frame", "Refiner", "Request"]
 
 PREVIEW_SECONDS = 0.08
 PREVIEW_SAMPLING = "uniform:8"
@@ -97,6 +97,21 @@ class Frame:
     illuminance: NDArray[np.float64] | None = None
 
 
+@dataclass(frozen=True)
+class Found:
+    """A solution of radiosity at hand.
+
+    Attributes:
+        solution: of the state.
+        state: what it was found or relit for.
+        number: of the elements; solutions that were relit keep it.
+    """
+
+    solution: Solution
+    state: State
+    number: int
+
+
 class Refiner:
     """The thread that renders for one page.
 
@@ -114,10 +129,10 @@ class Refiner:
         self._rate = FIRST_RATE
         self._kept: tuple[State, Job] | None = None
         self._bending: tuple[Scene, Scene] | None = None
-        self.solution: Solution | None = None
+        self._found: Found | None = None
+        """Swapped as a whole under the condition, for two threads write it and several read it."""
         self.solved = 0
         """How many solutions were found anew, not relit; each has elements of its own."""
-        self._solved_for: State | None = None
         self._solving: State | None = None
         self._cancel: Any = None
         self._latest: Request | None = None
@@ -134,15 +149,32 @@ class Refiner:
             self._condition.notify()
             return self._number
 
+    @property
+    def found(self) -> Found | None:
+        """The solution at hand with its state and its number, which belong together."""
+        return self._found
+
+    @property
+    def solution(self) -> Solution | None:
+        """The solution at hand, of whatever state."""
+        found = self._found
+        return None if found is None else found.solution
+
     def solution_for(self, state: State) -> Solution | None:
         """The solution at hand, if it is that of a state."""
-        return self.solution if self._solved(state) else None
+        found = self._found
+        return found.solution if found is not None and _same(found.state, state, "elements") else None
 
     def adopt(self, solution: Solution, state: State) -> None:
         """Take over a solution that was found elsewhere for a state."""
         with self._condition:
-            self.solution, self._solved_for = solution, state
+            self._keep(solution, state)
+
+    def _keep(self, solution: Solution, state: State) -> None:
+        """Have a solution with elements of its own at hand; the caller holds the condition."""
+        if not self._closed:
             self.solved += 1
+            self._found = Found(solution, state, self.solved)
 
     def close(self) -> None:
         """End the work and the thread."""
@@ -155,7 +187,8 @@ class Refiner:
             self._thread.join(timeout=10.0)
         # Pages and refiners know each other, so Python would free them late, and it knows nothing of the core's memory.
         self._deliver, self._say = _nothing, _nothing
-        self._kept = self._bending = self._solved_for = self._latest = self._wanted = self.solution = None
+        with self._condition:
+            self._kept = self._bending = self._latest = self._wanted = self._found = None
         heap.give_back()
 
     def _current(self, request: Request) -> bool:
@@ -206,9 +239,10 @@ class Refiner:
         if reason := obstacle(state):
             self._say(reason, True)
             return
-        if state.technique in SOLVED and (not self._ready(state) or not self._current(request)):
+        solution = self._ready(state) if state.technique in SOLVED else None
+        if state.technique in SOLVED and (solution is None or not self._current(request)):
             return
-        for lux in maps(state, request.camera, self.solution_for(state), lambda: self._current(request)):
+        for lux in maps(state, request.camera, solution, lambda: self._current(request)):
             self._deliver(replace(preview, illuminance=lux))
 
     def _preview(self, request: Request) -> Frame | None:
@@ -216,7 +250,8 @@ class Refiner:
         width, height = request.camera["size"]
         size = limited(width, height, max(1000, int(self._rate * 1e6 * PREVIEW_SECONDS)))
         kept = self._like(request)
-        known = state.technique not in SOLVED or self._solved(state) or self._relit(state)
+        solution = self._at_hand(state) if state.technique in SOLVED else None
+        known = state.technique not in SOLVED or solution is not None
         camera = dict(request.camera) | {"size": list(size)}
         options: dict[str, Any] = {"technique": state.technique, "illumination": state.illumination}
         if not known:
@@ -227,7 +262,7 @@ class Refiner:
             sampling=state.sampling if kept else PREVIEW_SAMPLING,
             samples=1,
             like=kept,
-            solution=self._core_solution(state) if known else None,
+            solution=None if solution is None else solution._core,
         )
         start, found = clock.perf_counter(), None
         for samples in job.passes(lambda _: self._current(request)):
@@ -253,8 +288,10 @@ class Refiner:
     def _job(self, request: Request) -> Job | None:
         state = request.state
         samples = MOST_SAMPLES
+        solution = None
         if state.technique in SOLVED:
-            if not self._ready(state) or not self._current(request):
+            solution = self._ready(state)
+            if solution is None or not self._current(request):
                 return None
             samples = GATHERED_SAMPLES if state.technique != "hybrid" else MOST_SAMPLES
         job = Job(
@@ -265,7 +302,7 @@ class Refiner:
             samples=samples,
             error=ERROR if state.technique in ("path", "distributed", "hybrid") else None,
             like=self._like(request),
-            solution=self._core_solution(state),
+            solution=None if solution is None else solution._core,
         )
         self._kept = (state, job)
         return job
@@ -277,49 +314,56 @@ class Refiner:
 
     # --- the solution --------------------------------------------------------------------------------------------
 
-    def _solved(self, state: State) -> bool:
-        """Whether the solution at hand is that of this state."""
-        return self._solved_for is not None and _same(self._solved_for, state, "elements")
+    def _ready(self, state: State) -> Solution | None:
+        """The solution of a state, relit or repainted if that does; without one it is solved for meanwhile."""
+        solution = self._at_hand(state)
+        if solution is None:
+            self._solve(state)
+        return solution
 
-    def _core_solution(self, state: State) -> Any:
-        return self.solution._core if state.technique in SOLVED and self.solution is not None else None
-
-    def _ready(self, state: State) -> bool:
-        """Whether there is a solution for a state, relit or repainted if that does; else it is solved for meanwhile."""
-        return self._solved(state) or self._relit(state) or self._solve(state)
-
-    def _relit(self, state: State) -> bool:
-        """Make the solution at hand one of a state with other lamps or paints; whether that was possible."""
-        before = self._solved_for
-        if (
-            self.solution is None
-            or before is None
-            or not _same(replace(before, scene=state.scene), state, "elements")
-        ):
-            return False
+    def _at_hand(self, state: State) -> Solution | None:
+        """The solution at hand, made one of a state with other lamps or paints where that is possible."""
+        before = self._found
+        if before is None:
+            return None
+        if _same(before.state, state, "elements"):
+            return before.solution
+        if not _same(replace(before.state, scene=state.scene), state, "elements"):
+            return None
         start = clock.perf_counter()
         try:
-            self.solution = self.solution.of(state.scene)
+            solution = before.solution.of(state.scene)
         except UsageError:
-            return False  # more has changed than can be relit
-        self._solved_for = state
+            return None  # more has changed than can be relit
+        with self._condition:
+            # One that was found meanwhile is newer, and stays.
+            if self._found is before and not self._closed:
+                self._found = Found(solution, state, before.number)
         self.relit_seconds = clock.perf_counter() - start
-        return True
+        return solution
 
-    def _solve(self, state: State) -> bool:
-        """Solve for a state on a thread of its own, so that the camera can move on; False, for it is not there yet."""
-        solving = self._solving
-        if solving is not None and not _same(replace(solving, scene=state.scene), state, "elements"):
-            self._cancel.cancel()  # what it finds could not be relit for this state, which begins when it has ended
-        if solving is None:
-            from illuminant.core import core
+    def _solve(self, state: State) -> None:
+        """Solve for a state on a thread of its own, so that the camera can move on."""
+        from illuminant.core import core
 
+        with self._condition:
+            # A request that waits may have a solution by now, and else begins what it needs.
+            if self._closed or self._wanted is not None:
+                return
+            solving = self._solving
+            if solving is not None:
+                if not _same(replace(solving, scene=state.scene), state, "elements"):
+                    # What it finds could not be relit for this state, which begins when it has ended.
+                    self._cancel.cancel()
+                return
+        self._say(f"Solving for the light between about {state.elements} elements …", False)
+        with self._condition:
+            if self._closed:
+                return
             self._solving, self._cancel = state, core().Cancel()
-            self._say(f"Solving for the light between about {state.elements} elements …", False)
             threading.Thread(
                 target=self._solver, args=(state, self._cancel), name="illuminant solver", daemon=True
             ).start()
-        return False
 
     def _solver(self, state: State, cancel: Any) -> None:
         from illuminant import radiosity
@@ -353,8 +397,7 @@ class Refiner:
             if self._closed:
                 return
             if found is not None:
-                self.solution, self._solved_for = found, state
-                self.solved += 1
+                self._keep(found, state)
             latest = self._latest
             if latest is None or self._wanted is not None or latest.state.technique not in SOLVED:
                 return

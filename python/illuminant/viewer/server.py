@@ -68,6 +68,11 @@ class Viewer:
                 raise
             self.problem = str(error)
         self.sessions: dict[int, Session] = {}
+        self._allow_outside = allow_outside
+        self._lock = threading.Lock()
+        self._gone: set[int] = set()
+        """Pages that closed before they had a session; it is ended as soon as it is there."""
+        self._stopped = False
         self._token = new_token()
         self._guard = Guard(self._token, host, port)
         self._server = self._listen(host, _free_port(host, port))
@@ -120,10 +125,21 @@ class Viewer:
         if self.state is None:
             client.gui.add_markdown(f"## The scene cannot be shown\n\n```\n{self.problem}\n```")
             return
-        self.sessions[client.client_id] = Session(client, self.state, self.folder)
+        # Without the lock, for it takes a while, in which the page may close.
+        session = Session(client, self.state, self.folder, allow_outside=self._allow_outside)
+        with self._lock:
+            wanted = not self._stopped and client.client_id not in self._gone
+            self._gone.discard(client.client_id)
+            if wanted:
+                self.sessions[client.client_id] = session
+        if not wanted:
+            session.close()
 
     def _left(self, client: Any) -> None:
-        session = self.sessions.pop(client.client_id, None)
+        with self._lock:
+            session = self.sessions.pop(client.client_id, None)
+            if session is None and self.state is not None:
+                self._gone.add(client.client_id)
         if session is not None:
             session.close()
 
@@ -136,9 +152,12 @@ class Viewer:
 
     def stop(self) -> None:
         """End all sessions and the server."""
-        for session in list(self.sessions.values()):
+        with self._lock:
+            self._stopped = True
+            sessions = list(self.sessions.values())
+            self.sessions.clear()
+        for session in sessions:
             session.close()
-        self.sessions.clear()
         with contextlib.redirect_stdout(io.StringIO()):
             self._server.stop()
 

@@ -43,10 +43,12 @@ class Session:
         client: viser's handle of the page.
         state: at the start.
         folder: where what the page keeps is written, and nowhere else.
+        allow_outside: whether the scene was read with files outside its folder.
     """
 
-    def __init__(self, client: Any, state: State, folder: Path) -> None:
+    def __init__(self, client: Any, state: State, folder: Path, *, allow_outside: bool = False) -> None:
         self.client, self.state, self.folder = client, state, folder
+        self.allow_outside = allow_outside
         self.start = state
         self.mode = MODES[0]
         self.frame: Frame | None = None
@@ -72,10 +74,14 @@ class Session:
         self.last_reading: Reading | None = None
         from illuminant.viewer.panels import Panels
 
-        self.panels = Panels(self)
-        client.camera.on_update(self._moved)
-        client.scene.on_click()(self._clicked)
-        self.ask()
+        try:
+            self.panels = Panels(self)
+            client.camera.on_update(self._moved)
+            client.scene.on_click()(self._clicked)
+            self.ask()
+        except BaseException:  # the page may have gone meanwhile; nobody else could end the threads
+            self.close()
+            raise
 
     # --- camera --------------------------------------------------------------------------------------------------
 
@@ -195,15 +201,16 @@ class Session:
                 return
             held = None if self.held is None else replace(self.held, look=state.look, stops=state.stops)
         # Without the lock, for it takes a while; this thread alone sends, so an older picture never comes last.
-        codes = self.composed(frame, state)
+        made = self.composed(frame, state)
+        codes = made.codes
         if other is not None and held is not None:
-            codes = self._beside(other, held, frame, codes)
+            codes = self._beside(other, held, frame, made)
         wired = (self.wires != WIRES[0] or self._lines is not None) and not frame.preview
         far = self._wire(frame) if wired else None
         background(self.client, encoded(codes), far)
         self.codes, self.sent = codes, frame
 
-    def _beside(self, other: Frame, held: State, frame: Frame, codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    def _beside(self, other: Frame, held: State, frame: Frame, right: Composed) -> NDArray[np.uint8]:
         """The held setting at the left and the chosen one at the right, or the map of their difference."""
         a, b = other.image.xyz, frame.image.xyz
         if self.map != "none" and a.shape == b.shape:
@@ -213,13 +220,10 @@ class Session:
             return with_scale(codes, "magma", 0.0, top, self.map, logarithmic=False)
         self.panels.compare.mean("none", 0.0)
         # One scale for both sides, or equal colours would not be equal light.
-        scale = None if self.composition is None else self.composition.scale
-        return split(self.composed(other, held, scale), codes, self.divider)
+        return split(self.composed(other, held, right.scale).codes, right.codes, self.divider)
 
-    def composed(
-        self, frame: Frame, state: State, scale: tuple[float, float] | None = None
-    ) -> NDArray[np.uint8]:
-        """The codes of a frame, in false colours on its own scale or a given one."""
+    def composed(self, frame: Frame, state: State, scale: tuple[float, float] | None = None) -> Composed:
+        """A frame as the page shows it, in false colours on its own scale or a given one, which is drawn into it."""
         import numpy as np
 
         emission = frame.image.layers.get("emission")
@@ -229,11 +233,12 @@ class Session:
             self.composition = made
             self.panels.facts(made)
         if made.scale is None:
-            return made.codes
+            return made
         # A preview is enlarged first, or the page would enlarge the numbers with it.
         width, height = frame.request.camera["size"]
         codes = enlarged(made.codes, height, width)
-        return with_scale(codes, "viridis", *made.scale, made.title, logarithmic=True)
+        drawn = with_scale(codes, "viridis", *made.scale, made.title, logarithmic=True)
+        return replace(made, codes=drawn)
 
     # --- wireframe -----------------------------------------------------------------------------------------------
 
@@ -246,25 +251,27 @@ class Session:
 
     def _wire(self, frame: Frame) -> NDArray[np.float32] | None:
         """Draw the edges that are chosen, if there is a solution; how far the picture is away, which hides some."""
-        solution = self.refiner.solution
+        found = self.refiner.found
         with self.lock:
-            wanted = (self.wires if solution is not None else WIRES[0], self.refiner.solved)
-            if wanted != self._wired:
-                self._wired = wanted
-                if self._lines is not None:
-                    self._lines.remove()
-                    self._lines = None
-                if solution is not None and wanted[0] != WIRES[0]:
-                    ends = edges(solution.mesh(), wanted[0])
-                    self._lines = self.client.scene.add_line_segments(
-                        "/wireframe", ends, WIRE_COLOUR, thickness=1.0, thickness_units="screen"
-                    )
-            if self._lines is None:
-                return None
-            camera = frame.request.camera
-            if self._depth is None or self._depth[0] != camera:
-                self._depth = camera, depth(frame.request.state.scene, camera)
-            return self._depth[1]
+            kind = self.wires if found is not None else WIRES[0]
+            wired, lines, deep = self._wired, self._lines, self._depth
+        # Without the lock, for both take a while; this thread alone draws edges.
+        wanted = (kind, 0 if found is None else found.number)
+        if wanted != wired:
+            ends = edges(found.solution.mesh(), kind) if found is not None and kind != WIRES[0] else None
+            if lines is not None:
+                lines.remove()
+            lines = None
+            if ends is not None:
+                lines = self.client.scene.add_line_segments(
+                    "/wireframe", ends, WIRE_COLOUR, thickness=1.0, thickness_units="screen"
+                )
+        camera = frame.request.camera
+        if lines is not None and (deep is None or deep[0] != camera):
+            deep = camera, depth(frame.request.state.scene, camera)
+        with self.lock:
+            self._wired, self._lines, self._depth = wanted, lines, deep
+        return None if lines is None or deep is None else deep[1]
 
     def say(self, text: str, wrong: bool) -> None:
         """Show a sentence in the page."""

@@ -15,8 +15,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from illuminant import sources
+from illuminant.animation import Animation
 from illuminant.display.look import Look
 from illuminant.errors import SceneError, UsageError
+from illuminant.report import Report
 from illuminant.scene_file import MAX_BYTES
 from illuminant.sources import SourceError
 from illuminant.viewer.tables import relocate
@@ -36,7 +38,8 @@ class State:
 
     Attributes:
         scene: with the camera of its file; the page's own camera is no part of the state.
-        tables: the tables of the scene file as they stand after all changes; empty for a scene that is no file.
+        tables: the tables of the scene file, of an animation those of its first frame, as they stand after all changes;
+            empty for a scene that is no file.
         technique, illumination, sampling: how the picture is made.
         elements: about how many elements a solution has.
         look: how it is shown; its exposure is a factor in cd/m², or None until the first picture has set it.
@@ -146,5 +149,9 @@ def _tables(path: str | None) -> dict[str, Any]:
     except (OSError, ValueError) as error:
         raise SceneError(f"{path}: {error}") from None
     # `Scene.replace` knows no folder that names of files are relative to.
+    if "animation" in tables:
+        # The scene at hand is the first frame, of which a key may stand in the keyframes alone.
+        animation = Animation.read(tables, Report(path), Path(path).parent)
+        tables = copy.deepcopy(animation.data(animation.time(animation.first)))
     relocate(tables, Path(path).parent, Path.absolute)
     return tables

@@ -113,22 +113,28 @@ def repainted(table: Mapping[str, Any], key: str, value: Any) -> dict[str, Any]:
     return changed
 
 
-def relocate(node: Any, folder: Path, named: Callable[[Path], Path]) -> None:
+def relocate(node: Any, folder: Path, named: Callable[[Path], Path]) -> list[Path]:
     """Name the files in tables anew, in place.
 
     Args:
         node: tables, or part of them.
         folder: to which names are relative.
         named: the new name of a file.
+
+    Returns:
+        The new names.
     """
+    names: list[Path] = []
     pairs: Any = (
         node.items() if isinstance(node, Mapping) else enumerate(node) if isinstance(node, list) else ()
     )
     for key, value in list(pairs):
         if not isinstance(value, str):
-            relocate(value, folder, named)
+            names += relocate(value, folder, named)
         elif key != "material" and Path(value).suffix and _is_file(folder / value):
-            node[key] = named(folder / value).as_posix()
+            names.append(named(folder / value))
+            node[key] = names[-1].as_posix()
+    return names
 
 
 def _is_file(path: Path) -> bool:

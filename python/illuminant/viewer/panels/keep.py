@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 __all__ = ["KeepPanel"]
 
 
+OUTSIDE = "It names files outside its folder, so it needs `--allow-outside`."
+
+
 class KeepPanel:
     """The folder of what can be kept."""
 
@@ -35,12 +38,14 @@ class KeepPanel:
             self._told = gui.add_markdown("")
 
     def _write(self, write: Callable[[Session], list[Path]]) -> None:
-        from illuminant.viewer.keeping import LOCK
+        from illuminant.viewer import keeping
 
         try:
-            with LOCK:
+            with keeping.LOCK:
                 files = write(self._session)
-            self._told.content = "Written: " + ", ".join(f"`{file.name}`" for file in files)
+                outside = write is keeping.scene and keeping.names_outside(self._session, files[0].parent)
+            told = "Written: " + ", ".join(f"`{file.name}`" for file in files)
+            self._told.content = f"{told}. {OUTSIDE}" if outside else told
         except Error as error:
             self._told.content = f"**{error}**"
         except Exception as error:  # the scene file may have been edited meanwhile
