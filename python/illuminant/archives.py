@@ -16,6 +16,7 @@ Example:
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Callable
 from typing import IO, TYPE_CHECKING
 
 from illuminant import machine
@@ -62,8 +63,15 @@ def read(stream: IO[bytes], name: str = "") -> dict[str, np.ndarray]:
         raise ValueError(str(error) or "is damaged") from error
 
 
-def array(stream: IO[bytes], size: int) -> np.ndarray:
+def array(
+    stream: IO[bytes], size: int, of_shape: Callable[[tuple[int, ...]], object] | None = None
+) -> np.ndarray:
     """One array of NumPy's format (`.npy`) that has so many bytes in all.
+
+    Args:
+        stream: is read.
+        size: bytes in all.
+        of_shape: called with the shape before the numbers are read; it may refuse it.
 
     Raises:
         ValueError: it is none, holds Python objects, or states another shape than it has numbers for.
@@ -83,13 +91,16 @@ def array(stream: IO[bytes], size: int) -> np.ndarray:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # that an array of Python 2 is slow to read
             shape, by_columns, kind = read_header(stream)
-    except (SyntaxError, TokenError) as error:  # the header is an expression of Python
+    except (SyntaxError, TokenError, TypeError, MemoryError, RecursionError) as error:
+        # The header is an expression of Python, and may be nested deeply or have lists as keys.
         raise ValueError("has a damaged header") from error
     if kind.hasobject:
         raise ValueError("holds Python objects")
     needed = math.prod(shape) * kind.itemsize
-    if needed > size or any(side < 0 for side in shape):
+    if any(side < 0 for side in shape) or needed > size:
         raise ValueError(f"states the shape {shape}, for which it is too short")
+    if of_shape is not None:
+        of_shape(shape)
     content = np.empty(needed, np.uint8)
     rest = content.data
     while rest:

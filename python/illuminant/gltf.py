@@ -9,7 +9,7 @@ The format is that of the Khronos Group, "glTF 2.0 Specification" (2021), sectio
 
 Example:
     >>> stripped(b'{"asset": {"version": "2.0"}, "images": [{"uri": "/etc/passwd"}]}', "gltf", 100, 100)
-    b'{"asset":{"version":"2.0"}}'
+    (b'{"asset":{"version":"2.0"}}', 0)
 """
 
 from __future__ import annotations
@@ -24,16 +24,25 @@ __all__ = ["stripped"]
 
 _MAGIC = b"glTF"
 _JSON = 0x4E4F534A
+_BYTES = {"5120": 1, "5121": 1, "5122": 2, "5123": 2, "5125": 4, "5126": 4}
+"""Bytes of a number by its `componentType`."""
+
+_NUMBERS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+"""Numbers of an element by its `type`."""
+
 _PICTURES = ("images", "textures", "samplers", "animations", "skins")
 
 
-def stripped(data: bytes, kind: str, most_vertices: int, most_faces: int) -> bytes:
-    """The file without its pictures, after its numbers were checked.
+def stripped(data: bytes, kind: str, most_vertices: int, most_faces: int) -> tuple[bytes, int]:
+    """The file without its pictures, and how much its parts take, after its numbers were checked.
 
     Args:
         data: of the file.
         kind: "gltf" or "glb".
         most_vertices, most_faces: in all primitives together.
+
+    Returns:
+        The file, and the bytes of its buffers, views and accessors: a reader copies each of them.
 
     Raises:
         DataError: it states more than that, or what cannot be.
@@ -54,16 +63,18 @@ def stripped(data: bytes, kind: str, most_vertices: int, most_faces: int) -> byt
     if not isinstance(header, dict):
         raise ValueError("its JSON is no object")
     _check(header, most_vertices, most_faces)
+    needed = _needed(header)
     for key in _PICTURES:
         header.pop(key, None)
     if "materials" in header:
         header["materials"] = [{} for _ in _list(header, "materials")]
     text = json.dumps(header, separators=(",", ":")).encode()
     if kind == "gltf":
-        return text
+        return text, needed
     text += b" " * (-len(text) % 4)
     rest = data[end:]
-    return _MAGIC + struct.pack("<IIII", 2, 20 + len(text) + len(rest), len(text), _JSON) + text + rest
+    head = struct.pack("<IIII", 2, 20 + len(text) + len(rest), len(text), _JSON)
+    return _MAGIC + head + text + rest, needed
 
 
 def _check(header: dict[str, Any], most_vertices: int, most_faces: int) -> None:
@@ -94,6 +105,21 @@ def _check(header: dict[str, Any], most_vertices: int, most_faces: int) -> None:
         raise DataError(f"has {vertices:,} vertices; at most {most_vertices:,} can be used")
     if corners > 3 * most_faces:
         raise DataError(f"has {corners // 3:,} faces; at most {most_faces:,} can be used")
+
+
+def _needed(header: dict[str, Any]) -> int:
+    """Bytes of all buffers, views and accessors, each with its own copy of what it shows."""
+    total = 0
+    for key in ("buffers", "bufferViews"):
+        for part in _list(header, key):
+            length = part.get("byteLength") if isinstance(part, dict) else None
+            if not isinstance(length, int) or length < 0:
+                raise DataError(f"has {key} without a length")
+            total += length
+    for accessor in _list(header, "accessors"):
+        size = _BYTES.get(str(accessor.get("componentType")), 4)
+        total += accessor["count"] * size * _NUMBERS.get(str(accessor.get("type")), 16)
+    return total
 
 
 def _count(counts: list[int], number: Any) -> int:

@@ -113,7 +113,7 @@ def _bytes(path: Path) -> bytes:
         data = sources.read(path, MAX_BYTES)
         if path.name.lower().endswith(".gz"):
             with gzip.GzipFile(fileobj=io.BytesIO(data)) as stream:
-                data = sources.drained(stream, MAX_BYTES + 1)
+                data = sources.drained(stream, MAX_BYTES + 1, name=str(path))
     except SourceError as error:
         raise DataError(error.message) from None
     except (EOFError, gzip.BadGzipFile, zlib.error) as error:
@@ -135,7 +135,8 @@ def _parts(data: bytes, kind: str, path: Path, within: str | os.PathLike[str] | 
             _check_count(len(plain.positions), len(plain.indices))
             return [plain if plain.normals is None else _with_unit_normals(plain)]
     if kind in ("glb", "gltf"):
-        data = gltf.stripped(data, kind, MOST_VERTICES, MOST_FACES)
+        data, needed = gltf.stripped(data, kind, MOST_VERTICES, MOST_FACES)
+        machine.check_file(path, needed)
     return _parts_by_trimesh(data, kind, path, within)
 
 
@@ -173,14 +174,18 @@ def _parts_by_trimesh(
 
         def __init__(self) -> None:
             """Knows the folder already."""
+            self.known: dict[str, bytes] = {}
 
         def get(self, key: str) -> bytes:
             """The bytes of one."""
             file = path.parent / key
             try:
-                return sources.read(
-                    sources.located(file.absolute(), within or ".", within is None), MAX_BYTES
-                )
+                found = sources.located(file.absolute(), within or ".", within is None)
+                real = os.path.realpath(found)
+                # Many buffers may name one file.
+                if real not in self.known:
+                    self.known[real] = sources.read(found, MAX_BYTES)
+                return self.known[real]
             except SourceError as error:
                 raise DataError(f"names a file of its own: {key}: {error.message}") from None
 

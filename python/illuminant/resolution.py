@@ -33,7 +33,7 @@ from illuminant import (
 from illuminant.coefficient_schema import ALL_MODELS, Coefficients
 from illuminant.core import core
 from illuminant.curves import Curves, curve_from_spectrum
-from illuminant.errors import DataError, ImageError, suggestion
+from illuminant.errors import DataError, ImageError, MachineError, suggestion
 from illuminant.pattern_schema import ColourPattern, SlopePattern
 from illuminant.photometry_file import Photometry
 from illuminant.quantities import FITTING, QUANTITIES
@@ -622,10 +622,15 @@ class Resolver:
         if isinstance(given, str):
             file = self._file(given)
             size = sources.check(file, MOST_BYTES_OF_DENSITY)
-            machine.check_file(file, BYTES_A_CELL * size // 4)
+
+            def fits(shape: tuple[int, ...]) -> None:
+                machine.check_file(file, BYTES_A_CELL * math.prod(shape))
+
             try:
                 with sources.opened(file, MOST_BYTES_OF_DENSITY) as stream:
-                    cells = archives.array(stream, size)
+                    cells = archives.array(stream, size, fits)
+            except MachineError:
+                raise
             except (OSError, ValueError, EOFError) as error:
                 raise DataError(f"is no NumPy file of numbers ({error})", str(file)) from error
         else:

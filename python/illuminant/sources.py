@@ -40,6 +40,8 @@ __all__ = ["Kind", "SourceError", "amount", "check", "drained", "is_outside", "l
 Kind = Literal["missing", "folder", "special", "loop", "outside", "large", "unreadable"]
 """Why a file is refused."""
 
+A_PIECE = 1_000_000
+
 WORTH_A_LOOK = 16_000_000
 """Bytes from which on memory is looked at before a file is read."""
 
@@ -164,7 +166,7 @@ def read(path: str | os.PathLike[str], most: int) -> bytes:
             if (size := os.fstat(stream.fileno()).st_size) >= WORTH_A_LOOK:
                 machine.check_file(file, size)
             # A file may grow while it is read, and those of /proc state no size.
-            content = drained(stream, most + 1, size + 1)
+            content = drained(stream, most + 1, size + 1, file)
     except OSError as error:
         if isinstance(error, MachineError):
             raise
@@ -174,26 +176,43 @@ def read(path: str | os.PathLike[str], most: int) -> bytes:
     return content
 
 
-def drained(stream: IO[bytes] | io.BufferedIOBase, most: int, piece: int = 0) -> bytes:
+def drained(
+    stream: IO[bytes] | io.BufferedIOBase, most: int, piece: int = 0, name: str = "The file"
+) -> bytes:
     """What a stream still holds, at most so many bytes.
 
-    It is read in pieces, since a reader makes room at once for all that it is asked for.
+    It is read in pieces, since a reader makes room at once for all that it is asked for. Memory is looked at again and
+    again as they become more: a small file that is unpacked may have no end.
 
     Args:
         stream: is read.
         most: bytes.
-        piece: how much is asked for at a time, at least a megabyte.
+        piece: how much is asked for at first; from then on a megabyte at a time.
+        name: of the file, for the sentence on memory.
+
+    Raises:
+        MachineError: it does not fit into the memory that is free.
 
     Example:
         >>> import io
         >>> drained(io.BytesIO(b"four"), 3)
         b'fou'
     """
-    pieces, left = [], most
-    while left and (found := stream.read(min(left, max(piece, 1_000_000)))):
-        pieces.append(found)
-        left -= len(found)
-    return pieces[0] if len(pieces) == 1 else b"".join(pieces)
+    first = stream.read(min(most, max(piece, A_PIECE)))
+    found = stream.read(min(most - len(first), A_PIECE)) if first and len(first) < most else b""
+    if not found:
+        return first
+    content = bytearray(first)
+    del first
+    looked = len(content)
+    while found:
+        content += found
+        if len(content) - looked >= WORTH_A_LOOK:
+            looked = len(content)
+            # As it grows it may be copied, and once more when it is whole.
+            machine.check_file(name, looked)
+        found = stream.read(min(most - len(content), A_PIECE)) if len(content) < most else b""
+    return bytes(content)
 
 
 def is_outside(error: Exception) -> bool:
