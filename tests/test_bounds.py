@@ -160,26 +160,6 @@ def test_allow_outside_reaches_every_command(tmp_path):
     assert "lies outside the folder" in refused.stdout + refused.stderr
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("audit", "--draws", "100"),
-        ("compare", "--samples", "1", "--only", "path/global"),
-        ("spectra", "error"),
-    ],
-)
-def test_other_commands_refuse_files_outside_in_a_sentence(tmp_path, words):
-    (tmp_path / "paint.csv").write_text("400 0.5\n700 0.5\n")
-    (tmp_path / "in").mkdir()
-    path = scene(tmp_path / "in" / "a.toml", reflectance='{ file = "../paint.csv" }')
-    name = 2 if words[0] == "spectra" else 1
-    command = [*words[:name], path, *words[name:]]
-    refused = run(*command)
-    assert refused.returncode == 1
-    assert "lies outside the folder" in refused.stderr
-    assert "lies outside" not in run(*command, "--allow-outside").stderr
-
-
 def test_a_program_may_name_any_file_and_need_not(tmp_path):
     (tmp_path / "paint.csv").write_text("400 0.5\n700 0.5\n")
     (tmp_path / "in").mkdir()
