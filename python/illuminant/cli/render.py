@@ -425,13 +425,15 @@ def render(
         if frames is not None:
             from illuminant.cli.frames import one_frame, render_frames
 
-            bounds = {"allow_outside": allow_outside, "memory_limit": memory_limit}
             if pixel is not None:
-                still = one_frame(scene, frames, pixel, **bounds)
+                still = one_frame(
+                    scene, frames, pixel, allow_outside=allow_outside, memory_limit=memory_limit
+                )
                 job = stop.watch(Job(still, memory_limit=memory_limit, **options))
                 _print_path(job, pixel, sample or 0, json)
                 return
             saving = {"look": look, "rgb": rgb, "half": half}
+            bounds: dict[str, Any] = {"allow_outside": allow_outside, "memory_limit": memory_limit}
             render_frames(scene, frames, output, options | bounds, saving, again=again, json=json, stop=stop)
             return
         job = stop.watch(
