@@ -71,8 +71,8 @@ kills: .venv/.core ## Kill renders at random moments, 200 times, and record it (
 soak: .venv/.core ## Half an hour of mixed work under a memory limit, recorded (endurance/soak.txt)
 	@$(BIN)/python endurance/soak.py --minutes 30 --record endurance/soak.txt
 
-fuzz: .venv/.core ## Ten million hostile inputs for the readers, recorded (fuzz/last-run.txt)
-	@$(BIN)/python fuzz/run.py
+fuzz: .venv/.core ## Half a million hostile inputs for each reader (hours), recorded (fuzz/last-run.txt)
+	@ILLUMINANT_EMBREE="$$(ls "$(CURDIR)"/.venv/lib/python3*/site-packages/embreex.libs/libembree4*)" $(BIN)/python fuzz/run.py --jobs 2
 
 site: .venv/.core build/atlas/index.md ## Build the documentation site in build/site/html (docs, atlas, references)
 	@$(BIN)/python tools/site/build.py build/site --atlas build/atlas --notebooks
