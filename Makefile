@@ -65,13 +65,13 @@ bench: .venv/.core ## Measure beside peers and beside raw Embree; prints tables 
 	for script in compare_mitsuba embree_limit lanes memory fitted color dither scanline glossy many_lamps form_factors viewer radiance; do \
 	  echo "illuminant: benches/$$script.py"; $(BIN)/python benches/$$script.py; done
 
-kills: .venv/.core ## Kill renders at random moments, 200 times, and record it (endurance/kills.txt)
+kills: .venv/.core ## Kill 200 renders at random moments (endurance/kills.txt)
 	@$(BIN)/python endurance/kills.py --kills 200 --record endurance/kills.txt
 
-soak: .venv/.core ## Half an hour of mixed work under a memory limit, recorded (endurance/soak.txt)
+soak: .venv/.core ## Half an hour of mixed work (endurance/soak.txt)
 	@$(BIN)/python endurance/soak.py --minutes 30 --record endurance/soak.txt
 
-fuzz: .venv/.core ## Half a million hostile inputs for each reader (hours), recorded (fuzz/last-run.txt)
+fuzz: .venv/.core ## Millions of hostile inputs, hours, recorded (fuzz/last-run.txt)
 	@ILLUMINANT_EMBREE="$$(ls "$(CURDIR)"/.venv/lib/python3*/site-packages/embreex.libs/libembree4*)" $(BIN)/python fuzz/run.py --jobs 2
 
 site: .venv/.core build/atlas/index.md ## Build the documentation site in build/site/html (docs, atlas, references)
