@@ -216,12 +216,26 @@ class Image:
         if given is not None and not (given > 0 and math.isfinite(given)):
             raise UsageError(f"An exposure is a positive number, not {given}.")
         used = self.auto_exposure() if given is None else float(given)
+        self._say_what_is_no_number(path)
         if path.suffix.lower() == ".exr":
             self._save_exr(path, used, rgb or "XYZ", half)
             return Saved(path, None, False, None)
         shown = self.shown(look, exposure=used)
         shown.picture.save(path)
         return Saved(path, used, given is None, shown.outside)
+
+    def _say_what_is_no_number(self, path: Path) -> None:
+        """Count pixels that hold NaN, and say so in the log: renders drop such samples, arrays come from anywhere."""
+        import logging
+
+        import numpy as np
+
+        for name, layer in {"colour": self.xyz, **self.layers}.items():
+            count = int(np.isnan(layer).any(axis=-1).sum())
+            if count:
+                logging.getLogger("illuminant").warning(
+                    "%s: the %s of %d pixel%s is no number (NaN).", path, name, count, "s" * (count != 1)
+                )
 
     def shown(self, look: Look | None = None, *, exposure: float | None = None) -> Shown:
         """The image as a picture for a display, and what was met on the way.

@@ -228,3 +228,13 @@ def test_an_exr_keeps_what_the_caller_put_into_it_and_it_is_read_back_as_such(tm
     Image(xyz).save(tmp_path / "a.exr")
     found = Image.open(tmp_path / "a.exr").xyz
     assert np.isnan(found[0, 1, 0]) and found[0, 1, 1] == np.inf and np.isfinite(found[1]).all()
+
+
+@pytest.mark.parametrize("name", ["a.exr", "a.png"])
+def test_numbers_that_are_none_are_counted_when_an_image_is_saved(tmp_path, caplog, name):
+    xyz = np.ones((4, 5, 3))
+    xyz[1, 2, 0] = xyz[3, 4] = np.nan
+    illuminant.Image(xyz, layers={"depth": np.full((4, 5, 1), np.inf)}).save(tmp_path / name, exposure=0.5)
+    assert [record.getMessage() for record in caplog.records] == [
+        f"{tmp_path / name}: the colour of 2 pixels is no number (NaN)."
+    ]
