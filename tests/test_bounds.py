@@ -229,7 +229,7 @@ def test_memory_is_looked_at_while_a_stream_goes_on():
         pytest.raises(MachineError, match=r"a\.gz needs about"),
     ):
         sources.drained(stream, 4_000_000_000, name="a.gz")
-    assert sum(asked) <= 100_000_000
+    assert sum(asked) <= 200_000_000  # what the process had given back comes first
     assert max(asked) <= 1_000_000
 
 
