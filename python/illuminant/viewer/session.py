@@ -177,12 +177,22 @@ class Session:
         with self.lock:
             self.frame = frame
             if self._exposure_from < ENOUGH_SAMPLES:
-                # A few noisy pixels say little of what is white: a better picture sets the exposure again.
-                self._exposure_from = frame.samples
+                # A few noisy pixels say little of what is white: a better picture sets the exposure again. So does the
+                # first one from the scene's camera: until a page has taken that over, it stands somewhere else.
+                if self._is_at_start(frame):
+                    self._exposure_from = frame.samples
                 look = replace(self.state.look, exposure=frame.image.auto_exposure())
                 self.state = replace(self.state, look=look)
         self.show()
         self.panels.progress(frame)
+
+    def _is_at_start(self, frame: Frame) -> bool:
+        """Whether a frame is seen from where the scene's own camera stands."""
+        import numpy as np
+
+        own = np.asarray(self.start.scene.description["camera"]["eye"], float)
+        apart = np.linalg.norm(np.asarray(frame.request.camera["eye"], float) - own)
+        return bool(apart <= 1e-3 * (1.0 + np.linalg.norm(own)))
 
     def _deliver_held(self, frame: Frame) -> None:
         with self.lock:
