@@ -203,6 +203,7 @@ class Job:
         job_memory.check(self.settings, self.scene, width * height, lamps, solved if known else None)
         embree()
         self._spent, self._kept_solution = 0.0, b""
+        self._identity: dict[str, Any] = {}
         if checkpoint is not None:
             checkpoint.check(self.identity())
             if checkpoint.solution and solution is None:
@@ -244,6 +245,8 @@ class Job:
 
     def identity(self) -> dict[str, Any]:
         """What must be equal for samples to be those of one image: scene, settings, versions."""
+        if self._identity:
+            return self._identity
         import illuminant
 
         chosen = asdict(self.settings)
@@ -251,13 +254,14 @@ class Job:
         if self.settings.sampler not in COUNTED:
             free.add("samples")
         kept = {key: list(one) if isinstance(one, tuple) else one for key, one in chosen.items()}
-        return {
+        self._identity = {
             "scene": self.scene.hash(),
             "size": list(self.scene.description["camera"]["size"]),
             **{key: one for key, one in kept.items() if key not in free},
             "version": illuminant.__version__,
             "embree": embree(),
         }
+        return self._identity
 
     def join(self, part: bytes) -> None:
         """Add samples that another process has taken for the same render (`core_render.part()`).

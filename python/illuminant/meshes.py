@@ -190,8 +190,8 @@ def _parts_by_trimesh(
                 raise DataError(f"names a file of its own: {key}: {error.message}") from None
 
         def write(self, name: str, data: bytes) -> None:
-            """Nothing is written."""
-            raise NotImplementedError
+            """Refuse: a mesh that is read writes nothing."""
+            raise DataError(f"would write a file of its own: {name}")
 
         def namespaced(self, namespace: str) -> Beside:
             """There is one folder."""

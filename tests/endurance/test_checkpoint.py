@@ -40,19 +40,8 @@ class Cut:
         return self.left > 0
 
 
-def same(one: illuminant.Image, other: illuminant.Image) -> None:
-    """Two images agree in every bit and every word."""
-    assert one.xyz.tobytes() == other.xyz.tobytes()
-    assert one.layers.keys() == other.layers.keys()
-    for name, layer in one.layers.items():
-        assert layer.tobytes() == other.layers[name].tobytes(), name
-    assert one.settings == other.settings
-    for count in ("samples", "rays", "dropped"):
-        assert one.statistics[count] == other.statistics[count], count
-
-
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: "-".join(map(str, kind.values())))
-def test_a_render_that_was_cut_off_goes_on_to_the_same_bits(scenes, tmp_path, kind):
+def test_a_render_that_was_cut_off_goes_on_to_the_same_bits(scenes, tmp_path, kind, same):
     options = {**SMALL, **kind}
     whole = illuminant.render(scenes / "cornell.toml", **options)
     file, chance = tmp_path / "image.ckpt", random.Random(3)
@@ -67,7 +56,7 @@ def test_a_render_that_was_cut_off_goes_on_to_the_same_bits(scenes, tmp_path, ki
     same(job.image(), whole)
 
 
-def test_a_range_that_was_cut_off_is_completed_before_its_noise_decides(scenes, tmp_path):
+def test_a_range_that_was_cut_off_is_completed_before_its_noise_decides(scenes, tmp_path, same):
     """Half a range of more samples in some tiles would look as if the image were good enough, or not."""
     options = {"size": (64, 48), "error": 0.04, "samples": 1024}
     whole = illuminant.render(scenes / "cornell.toml", **options)
@@ -113,14 +102,14 @@ def test_a_checkpoint_goes_where_a_link_leads(scenes, tmp_path):
     assert not (tmp_path / "somebody").exists()
 
 
-def test_more_samples_can_be_asked_for_later(scenes, tmp_path):
+def test_more_samples_can_be_asked_for_later(scenes, tmp_path, same):
     file = tmp_path / "image.ckpt"
     illuminant.render(scenes / "cornell.toml", size=(40, 24), samples=8, checkpoint=file)
     more = illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=file, resume=True)
     same(more, illuminant.render(scenes / "cornell.toml", **SMALL))
 
 
-def test_checkpoints_are_written_on_the_way(scenes, tmp_path):
+def test_checkpoints_are_written_on_the_way(scenes, tmp_path, same):
     file, seen = tmp_path / "image.ckpt", []
 
     class Watched(Keeper):
@@ -218,7 +207,7 @@ def test_a_header_that_cannot_be_is_refused_even_with_the_right_digest(header):
         Checkpoint.from_bytes(content + hashlib.sha256(content).digest())
 
 
-def test_a_part_of_another_film_is_refused(scenes):
+def test_a_part_of_another_film_is_refused(scenes, same):
     job = Job(scenes / "cornell.toml", **SMALL)
     other = Job(scenes / "cornell.toml", size=(8, 8), samples=1)
     for one in (job, other):

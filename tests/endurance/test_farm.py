@@ -35,17 +35,8 @@ def ray() -> Iterator[Any]:
         yield connected
 
 
-def same(one: illuminant.Image, other: illuminant.Image) -> None:
-    """Two images agree in every bit and every word."""
-    assert one.xyz.tobytes() == other.xyz.tobytes()
-    for name, layer in one.layers.items():
-        assert layer.tobytes() == other.layers[name].tobytes(), name
-    assert one.settings == other.settings
-    assert one.statistics["samples"] == other.statistics["samples"]
-
-
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: "-".join(map(str, kind.values())))
-def test_the_image_has_the_bits_of_one_made_here(ray, scenes, kind):
+def test_the_image_has_the_bits_of_one_made_here(ray, scenes, kind, same):
     image = farm.render(scenes / "cornell.toml", **{**SMALL, **kind})
     same(image, illuminant.render(scenes / "cornell.toml", **{**SMALL, **kind}))
     assert image.statistics["farm"]["shares"] >= 4
@@ -64,7 +55,7 @@ def workers() -> list[int]:
     return found
 
 
-def test_a_worker_that_is_killed_costs_what_it_was_doing(ray, scenes):
+def test_a_worker_that_is_killed_costs_what_it_was_doing(ray, scenes, same):
     options = {"size": (128, 96), "samples": 1024}
     job, killed, over = Job(scenes / "cornell.toml", **options), set(), threading.Event()
 
@@ -118,7 +109,7 @@ def test_it_ends_when_it_is_told(ray, scenes):
 
 
 @pytest.mark.parametrize("kind", [{}, {"caustics": True}, {"error": 0.04, "samples": 512}], ids=str)
-def test_it_takes_only_what_a_checkpoint_lacks(ray, scenes, kind):
+def test_it_takes_only_what_a_checkpoint_lacks(ray, scenes, kind, same):
     """One that was written within a range, where some tiles hold more than others."""
     options = {**SMALL, "samples": 200, **kind}
     job = Job(scenes / "cornell.toml", **options)
@@ -132,7 +123,7 @@ def test_it_takes_only_what_a_checkpoint_lacks(ray, scenes, kind):
     same(later.image(), illuminant.render(scenes / "cornell.toml", **options))
 
 
-def test_it_goes_on_from_one_that_a_farm_left(ray, scenes, tmp_path):
+def test_it_goes_on_from_one_that_a_farm_left(ray, scenes, tmp_path, same):
     file = tmp_path / "image.ckpt"
     options = {"size": (64, 64), "samples": 300}
     seen: list[float] = []
@@ -146,7 +137,7 @@ def test_it_goes_on_from_one_that_a_farm_left(ray, scenes, tmp_path):
     same(there, illuminant.render(scenes / "cornell.toml", **options))
 
 
-def test_it_goes_on_from_a_checkpoint_made_here(ray, scenes, tmp_path):
+def test_it_goes_on_from_a_checkpoint_made_here(ray, scenes, tmp_path, same):
     file = tmp_path / "image.ckpt"
     illuminant.render(scenes / "cornell.toml", size=(48, 32), samples=10, checkpoint=file)
     image = farm.render(scenes / "cornell.toml", **SMALL, checkpoint=file, resume=True)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 import typer
 
 from illuminant.cli import render as rendering
+from illuminant.cli.work import Here, done_by
 
 if TYPE_CHECKING:
     from illuminant.checkpoint import Keeper
@@ -59,14 +60,14 @@ def render(*, workers: int | None, address: str | None, threads: int, **options:
     """
 
     with ExitStack() as stack:
-        token = rendering.done_by.set(_Farm(stack, workers, address, threads))
+        token = done_by.set(_Farm(stack, workers, address, threads))
         try:
             rendering.render(**options)
         finally:
-            rendering.done_by.reset(token)
+            done_by.reset(token)
 
 
-class _Farm(rendering.Here):
+class _Farm(Here):
     """Does the work of a job on a cluster, which is there from when it is first needed: mistakes are found before."""
 
     def __init__(self, stack: ExitStack, workers: int | None, address: str | None, threads: int) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from illuminant.cli.render import _Stop
+    from illuminant.cli.work import Stop
     from illuminant.frames import Frame
     from illuminant.scene import Scene
 
@@ -23,7 +23,7 @@ def render_frames(
     *,
     again: bool,
     json: bool,
-    stop: _Stop,
+    stop: Stop,
 ) -> None:
     """Render frames, and say how it went.
 
@@ -39,8 +39,9 @@ def render_frames(
     """
     from illuminant import frames, machine
     from illuminant.animation import Animation
-    from illuminant.cli.render import _save, done_by
+    from illuminant.cli.outcome import save as save_image
     from illuminant.cli.report import emit_json, note, progress_bar, warning
+    from illuminant.cli.work import done_by
 
     began = time.monotonic()
     options = dict(options)
@@ -59,7 +60,7 @@ def render_frames(
                 warning(text)
 
     def save(image: Any, path: Path, chosen: Any, *, exposure: float | None, rgb: Any, half: bool) -> Any:
-        return _save(image, path, look=chosen, exposure=exposure, rgb=rgb, half=half)
+        return save_image(image, path, look=chosen, exposure=exposure, rgb=rgb, half=half)
 
     with progress_bar(scene.name) as bar:
         made = frames.render_frames(
@@ -127,14 +128,14 @@ def _seconds(began: float) -> str:
 
 def _facts(frame: Frame, scene: Path, options: dict[str, Any], allow_outside: bool) -> dict[str, Any]:
     """What is said of a frame: as of a still image, with its number and time."""
-    from illuminant.cli.render import _again, _facts, _say_dropped
+    from illuminant.cli import outcome
 
     facts: dict[str, Any] = {"frame": frame.number, "time_s": frame.time_s, "skipped": frame.skipped}
     if frame.image is None:
         return facts | {"files": list(frame.files)}
-    again = f"{_again(scene, options, allow_outside)} --frames {frame.number}"
-    rest = _facts(frame.jobs[0], frame.image, list(frame.saved), again)
-    _say_dropped(rest)
+    again = f"{outcome.again_command(scene, options, allow_outside)} --frames {frame.number}"
+    rest = outcome.facts(frame.jobs[0], frame.image, list(frame.saved), again)
+    outcome.say_dropped(rest)
     return facts | rest
 
 

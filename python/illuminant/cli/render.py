@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import signal
-from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from illuminant.cli import outcome
 from illuminant.cli.look import asked_look
 from illuminant.cli.options import (
     Adaptive,
@@ -31,18 +30,13 @@ from illuminant.cli.options import (
     ToneName,
     Transfer,
 )
+from illuminant.cli.work import Stop, done_by, work
 
 if TYPE_CHECKING:
     from illuminant.checkpoint import Checkpoint, Keeper
-    from illuminant.image import Image, Saved
-    from illuminant.job import Job, OnProgress
-    from illuminant.scene import Scene
-    from illuminant.settings import Settings
+    from illuminant.job import Job
 
-__all__ = ["Here", "done_by", "render"]
-
-SHOWN = 3
-"""How many dropped samples are named one by one."""
+__all__ = ["render"]
 
 
 def render(
@@ -419,7 +413,7 @@ def render(
         "frustum": frustum,
         "cube": cube,
     }
-    with _Stop() as stop:
+    with Stop() as stop:
         from illuminant.job import Job
 
         if frames is not None:
@@ -430,7 +424,7 @@ def render(
                     scene, frames, pixel, allow_outside=allow_outside, memory_limit=memory_limit
                 )
                 job = stop.watch(Job(still, memory_limit=memory_limit, **options))
-                _print_path(job, pixel, sample or 0, json)
+                outcome.print_path(job, pixel, sample or 0, json)
                 return
             saving = {"look": look, "rgb": rgb, "half": half}
             bounds: dict[str, Any] = {"allow_outside": allow_outside, "memory_limit": memory_limit}
@@ -447,28 +441,16 @@ def render(
             )
         )
         if pixel is not None:
-            _print_path(job, pixel, sample or 0, json)
+            outcome.print_path(job, pixel, sample or 0, json)
         else:
             _render(
                 job,
                 paths,
                 {"look": look, "rgb": rgb, "half": half},
-                _again(scene, options, allow_outside),
+                outcome.again_command(scene, options, allow_outside),
                 json,
                 keeper,
             )
-
-
-def _again(scene: Path, options: dict[str, Any], allow_outside: bool) -> str:
-    """The command that follows a path of this render again, up to the pixel: all that changes random numbers."""
-    import shlex
-
-    names = ("technique", "illumination", "sampling", "size", "depth", "filter", "sampler", "seed", "error")
-    words = {f"--{name}": options[name] for name in names} | {"--develop-for": options["develop_for"]}
-    given = [part for word, value in words.items() if value is not None for part in (word, str(value))]
-    given += ["--caustics"] if options["caustics"] else []
-    given += ["--allow-outside"] if allow_outside else []
-    return shlex.join(["illuminant", "render", str(scene), *given])
 
 
 def _checkpoints(
@@ -504,202 +486,17 @@ def _render(
     layers = settings.layers or settings.lamps or settings.keep_spectra
     if layers and not any(path.suffix.lower() == ".exr" for path in paths):
         warning("A PNG holds no layers: add -o FILE.exr to keep them.")
-    image = _work(job, keeper)
+    image = work(job, keeper)
     interrupted = job.interrupted  # a request that comes later finds the work done
     if interrupted and image.statistics["most_samples"] == 0:
         raise Interrupted("no pixel holds a sample yet, so nothing was written.")
-    saved = [_save(image, path, **look) for path in paths]
-    facts = _facts(job, image, saved, again) | {"complete": not interrupted}
+    saved = [outcome.save(image, path, **look) for path in paths]
+    facts = outcome.facts(job, image, saved, again) | {"complete": not interrupted}
     if json:
         emit_json(facts)
     else:
         note(closing(facts))
-        _say_exposure(saved, image)
-    _say_dropped(facts)
+        outcome.say_exposure(saved, image)
+    outcome.say_dropped(facts)
     if interrupted:
         raise Interrupted(f"{held(image)}; the image so far is written.")
-
-
-def _save(image: Image, path: Path, *, half: bool, **look: Any) -> Saved:
-    """Save an image whose work shall not be lost: without half floats if it must, in another folder if it must."""
-    import tempfile
-
-    from illuminant import exr
-    from illuminant.cli.report import warning
-    from illuminant.errors import ImageError, MachineError
-
-    if half and path.suffix.lower() == ".exr" and not exr.fits_half(image.xyz, *image.layers.values()):
-        warning(f"{path} has 32-bit floats, since a value of this image is above 65504.")
-        half = False
-    try:
-        return image.save(path, half=half, **look)
-    except (ImageError, MachineError) as error:
-        try:
-            kept = Path(tempfile.mkdtemp(prefix="illuminant-"), path.name)
-            image.save(kept, half=half, **look)
-        except (ImageError, MachineError, OSError):
-            raise error from None
-        raise type(error)(f"{str(error).rstrip('.')}; the image is kept as {kept}.") from error
-
-
-class _Stop:
-    """Ctrl-C and SIGTERM: before the work they end the program, during it they end the work; a second one the program.
-
-    The request is remembered, since a library that is being imported may swallow the exception.
-    """
-
-    def __init__(self) -> None:
-        self.requested = False
-        self.job: Job | None = None
-        self.before: dict[int, Any] = {}
-
-    def _handle(self, number: int, frame: Any) -> None:
-        if self.requested or self.job is None:
-            self.requested = True
-            raise KeyboardInterrupt
-        self.requested = True
-        self.job.interrupt()
-
-    def watch(self, job: Job) -> Job:
-        """From now on a request ends the work of this job."""
-        if self.requested:
-            raise KeyboardInterrupt
-        self.job = job
-        return job
-
-    def __enter__(self) -> _Stop:
-        self.before = {
-            number: signal.signal(number, self._handle) for number in (signal.SIGINT, signal.SIGTERM)
-        }
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        for number, handler in self.before.items():
-            signal.signal(number, handler)
-
-
-class Here:
-    """Does the work of a job in this process."""
-
-    def solve_by(self, scene: Scene, settings: Settings) -> Any:
-        """Solve for the light between surfaces; None leaves it to the job."""
-        return None
-
-    def follow(self, job: Job, progress: OnProgress | None, keeper: Keeper | None) -> None:
-        """Do it to its end."""
-        for _ in job.passes(progress, keeper):
-            pass
-
-
-done_by: ContextVar[Here] = ContextVar("done_by", default=Here())  # noqa: B039 - it holds nothing that changes
-"""Who does the work of a job: this process, or the farm."""
-
-
-def _work(job: Job, keeper: Keeper | None) -> Image:
-    """Render until the settings, or a request to stop, end it."""
-    from illuminant.cli.report import progress_bar
-
-    with progress_bar(Path(job.source).name) as bar:
-        done_by.get().follow(job, bar, keeper)
-        return job.image()
-
-
-def _facts(job: Job, image: Image, saved: list[Saved], again: str) -> dict[str, Any]:
-    """What the closing line and `--json` say."""
-    found = image.statistics
-    seconds = float(found["wall_seconds"])
-    samples = float(found["samples"])
-    shown = next((item for item in saved if item.exposure is not None), None)
-    return {
-        "files": [item.path for item in saved],
-        "seconds": seconds,
-        "samples": int(samples),
-        "samples_per_pixel": found["samples_per_pixel"],
-        "msamples_per_second": samples / max(seconds, 1e-9) / 1e6,
-        "mrays_per_second": float(found["rays"]) / max(seconds, 1e-9) / 1e6,
-        "peak_memory": int(found["peak_memory"]),
-        "spectral_error": job.spectral_error(),
-        "dropped": int(found["dropped"]),
-        "dropped_samples": [{**item, "again": _follow(again, item)} for item in found["dropped_samples"]],
-        "unit": image.unit,
-        "exposure": shown.exposure if shown else None,
-        "outside_gamut": shown.outside if shown else None,
-        "white": image.white(),
-        "settings": image.settings,
-    }
-
-
-def _say_exposure(saved: list[Saved], image: Image) -> None:
-    """Say which exposure a PNG was given, if nobody had chosen one, and how much of it lay outside the gamut."""
-    from illuminant.cli.report import note
-
-    shown = next((item for item in saved if item.exposure is not None), None)
-    if shown is None:
-        return
-    if not image.xyz.any():
-        note("The image is black.")
-    elif shown.chosen and shown.exposure:
-        white = f"{0.8 / shown.exposure:.4g} {image.unit}"
-        note(f"White, {white}, is shown as 0.8; --exposure {shown.exposure:g} repeats it.")
-    if shown.outside and shown.outside >= 0.0005:
-        note(
-            f"{100 * shown.outside:.1f} % of the pixels are outside the gamut or above white, and were moved."
-        )
-
-
-def _follow(again: str, item: dict[str, Any]) -> str:
-    """The command that follows a dropped sample again."""
-    x, y = item["pixel"]
-    return f"{again} --pixel {x},{y} --sample {item['sample']}"
-
-
-def _say_dropped(facts: dict[str, Any]) -> None:
-    """Name the first dropped samples, and the command that follows one again."""
-    from illuminant.cli.report import warning
-
-    dropped = facts["dropped_samples"]
-    for item in dropped[:SHOWN]:
-        x, y = item["pixel"]
-        where = f"object {item['object']}, material {item['material']}" if item["object"] else "no object"
-        warning(
-            f"Sample {item['sample']} of pixel {x},{y} is no radiance and was dropped ({where}); "
-            f"to follow it again: {item['again']}"
-        )
-    if facts["dropped"] > SHOWN:
-        warning(f"{facts['dropped']:,} samples were dropped in all; --json names the first {len(dropped)}.")
-
-
-def _print_path(job: Job, pixel: str, sample: int, json: bool) -> None:
-    """Follow one path again and print its vertices, one a line."""
-    from illuminant.cli.report import emit_json
-    from illuminant.rendering import replay_job
-    from illuminant.settings import pixel as parse
-
-    path = replay_job(job, parse(pixel), sample)
-    if json:
-        emit_json(path)
-        return
-    for number, vertices in enumerate(path["passes"]):
-        if len(path["passes"]) > 1:
-            typer.echo(f"pass {number}")
-        if not vertices:
-            typer.echo("nothing was hit")
-        for index, vertex in enumerate(vertices):
-            typer.echo(
-                f"{index:3}  {vertex['object']} ({vertex['material']}) at {_short(vertex['position'])}"
-            )
-            typer.echo(f"     throughput {_short(vertex['throughput'])}")
-            typer.echo(f"     added      {_short(vertex['added'])}")
-    typer.echo(f"XYZ  {_short(path['xyz'])}")
-
-
-def _short(value: Any) -> str:
-    """A value for a line of text: numbers to five digits, long lists cut."""
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, float):
-        return f"{value:.5g}"
-    if isinstance(value, (list, tuple)):
-        shown = ", ".join(_short(item) for item in value[:4])
-        return f"({shown}, ... {len(value)} in all)" if len(value) > 4 else f"({shown})"
-    return str(value)
