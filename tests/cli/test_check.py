@@ -105,7 +105,7 @@ def test_a_wrong_command_line_is_one_sentence(
     assert captured.err.startswith(f"Error: {sentence}") and captured.err.count("\n") == 1
 
 
-@pytest.mark.parametrize("verb", ["new", "check", "render", "diff", "info"])
+@pytest.mark.parametrize("verb", ["new", "check", "render", "farm", "farm render", "diff", "info", "view"])
 def test_every_help_has_an_example_and_fits_80_columns(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run([*verb.split(), "--help"]) == 0
     out = capsys.readouterr().out

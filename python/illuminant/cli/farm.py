@@ -40,9 +40,8 @@ Threads = Annotated[
     typer.Option(
         "--threads",
         metavar="N",
-        min=1,
-        max=4096,
         help="Threads of a worker, each with the scene to itself (1).",
+        show_default=False,
     ),
 ]
 
@@ -53,10 +52,10 @@ def render(*, workers: int | None, address: str | None, threads: int, **options:
     Without --address a cluster is started on this machine for the time of the render. A worker that dies costs
     what it was just doing. All other options are those of `illuminant render`.
 
-    \\b
+    \b
     Examples:
       illuminant farm render room.toml -o room.exr --samples 4096
-      illuminant farm render room.toml --address ray://head:10001 --threads 8 --checkpoint room.ckpt --resume
+      illuminant farm render room.toml --address head:6379 --threads 8
     """
 
     with ExitStack() as stack:
@@ -123,7 +122,7 @@ app.command("render", short_help="Render a scene on the workers of a cluster.")(
 def _start() -> None:
     """Render on many machines, with Ray.
 
-    \\b
+    \b
     Example:
       illuminant farm render room.toml -o room.exr --workers 2
     """
