@@ -81,7 +81,7 @@ def survive(kills: int, seed: int, options: list[str], folder: Path) -> Counter[
         # After the last kill it is left in peace.
         seconds = chance.uniform(0.05, 1.3 * whole) if found["kills"] < kills else 600.0
         ended = killed(command(folder, options), seconds, full=full)
-        writing = (folder / ".image.ckpt.part").exists()
+        writing = any(folder.glob(".image.illuminant-*.ckpt"))
         if checkpoint.exists():
             now = amount(checkpoint)
             assert now >= before, f"a kill after {seconds:.3f} s lost {before} and left {now}"

@@ -58,12 +58,13 @@ def _small() -> None:
         vars(module)["MAX_BYTES"] = 1 << 16
 
 
-def written(data: bytes, name: str) -> Path:
-    """The bytes as a file."""
-    path = folder() / name
-    with open(path, "wb") as file:
+def written(data: bytes, name: str, *, beside_assets: bool = False) -> Path:
+    """The bytes as a file; beside the assets, if it refers to them or a scene to it."""
+    place = folder() if beside_assets else folder() / "tested"
+    place.mkdir(exist_ok=True)
+    with open(place / name, "wb") as file:
         file.write(data)
-    return path
+    return place / name
 
 
 def _words(name: str) -> tuple[str, ...]:
@@ -123,7 +124,7 @@ def scene(data: bytes) -> None:
     """A scene file with all to which it refers."""
     from illuminant.scene import Scene
 
-    found = Scene.load(written(data, "scene.toml"))
+    found = Scene.load(written(data, "scene.toml", beside_assets=True))
     for name, array in found.arrays.items():
         if not name.startswith("image:"):
             finite(array)
@@ -360,7 +361,7 @@ def density(data: bytes) -> None:
     """The density of a medium as a NumPy file."""
     from illuminant.scene_file import resolve
 
-    written(data, "d.npy")
+    written(data, "d.npy", beside_assets=True)
     box = {"min": [-2, 0, -2], "max": [2, 3, 2]}
     found = resolve(
         {
@@ -514,7 +515,7 @@ def render(data: bytes) -> None:
     from illuminant.job import Job
     from illuminant.scene import Scene
 
-    found = Scene.load(written(data, "rendered.toml"))
+    found = Scene.load(written(data, "rendered.toml", beside_assets=True))
     if found.triangles > 20_000 or len(found.description["lights"]) > 50:
         return
     job = Job(

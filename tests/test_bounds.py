@@ -23,6 +23,7 @@ import pytest
 import illuminant
 from illuminant import archives, machine, meshes, scene_file, sources
 from illuminant.errors import DataError, MachineError, SceneError
+from illuminant.viewer import heap
 
 ROOT = Path(__file__).parents[1]
 SCENE = """
@@ -152,10 +153,34 @@ def test_allow_outside_reaches_every_command(tmp_path):
     with pytest.raises(SceneError, match="lies outside"):
         illuminant.render(path, samples=1)
     assert illuminant.render(path, samples=1, allow_outside=True).xyz.shape == (8, 8, 3)
-    assert run("check", path).returncode == 1
     assert run("check", path, "--allow-outside").returncode == 0
-    refused = run("check", path)
-    assert "lies outside the folder" in refused.stdout + refused.stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["check", "SCENE"],
+        ["render", "SCENE", "-o", "OUT.exr"],
+        ["render", "SCENE", "-o", "OUT.exr", "--frames", "1"],
+        ["farm", "render", "SCENE", "-o", "OUT.exr"],
+        ["radiosity", "solve", "SCENE", "-o", "OUT.solution"],
+        ["compare", "SCENE", "-o", "OUT.png", "--techniques", "path,raytrace"],
+        ["audit", "SCENE"],
+        ["spectra", "error", "SCENE"],
+    ],
+    ids=lambda words: " ".join(word for word in words if word.islower() and "." not in word),
+)
+def test_no_command_reads_outside_a_scene_unless_told(tmp_path, words):
+    (tmp_path / "paint.csv").write_text("400 0.5\n700 0.5\n")
+    (tmp_path / "in").mkdir()
+    path = scene(tmp_path / "in" / "a.toml", reflectance='{ file = "../paint.csv" }')
+    if "--frames" in words:
+        path.write_text(path.read_text() + "\n[animation]\nframes = 2\nrate = 24\n")
+    found = run(*(word.replace("SCENE", str(path)).replace("OUT", str(tmp_path / "out")) for word in words))
+    assert found.returncode == (1 if words[0] == "check" else 2)
+    assert re.search(r"lies\s+outside\s+the\s+folder", found.stdout + found.stderr)
+    assert "--allow-outside" in found.stdout + found.stderr
+    assert sorted(item.name for item in tmp_path.iterdir()) == ["in", "paint.csv"]
 
 
 def test_a_program_may_name_any_file_and_need_not(tmp_path):
@@ -222,12 +247,13 @@ def test_memory_is_looked_at_while_a_stream_goes_on():
             return bytes(size)
 
     stream = Endless()
+    heap.give_back(0.0)  # else what earlier tests have freed comes first
     with (
         machine.limited_to(machine.resident() + 100_000_000),
         pytest.raises(MachineError, match=r"a\.gz needs about"),
     ):
         sources.drained(stream, 4_000_000_000, name="a.gz")
-    assert sum(asked) <= 200_000_000  # what the process had given back comes first
+    assert sum(asked) <= 200_000_000
     assert max(asked) <= 1_000_000
 
 
@@ -436,7 +462,7 @@ def test_a_large_table_is_read_in_the_time_that_its_size_takes():
 def test_the_table_of_limits_is_that_of_the_code():
     page = (ROOT / "docs/security.md").read_text(encoding="utf-8")
     rows = re.findall(
-        r"^\| .+? \| ([\d,]+)(?: bytes)? \| `illuminant\.([\w.]+)\.(\w+)` \|$",
+        r"^\| .+? \| ([\d,e]+)(?: bytes)? \| `illuminant\.([\w.]+)\.(\w+)` \|$",
         page,
         re.MULTILINE,
     )
@@ -445,4 +471,4 @@ def test_the_table_of_limits_is_that_of_the_code():
     assert len(rows) == len(re.findall(r"^\| ", table, re.MULTILINE)) - 2 > 15
     for number, module, constant in rows:
         value = getattr(importlib.import_module(f"illuminant.{module}"), constant)
-        assert int(number.replace(",", "")) == value, f"{module}.{constant}"
+        assert float(number.replace(",", "")) == value, f"{module}.{constant}"

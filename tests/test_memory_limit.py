@@ -54,10 +54,12 @@ embree(), core()
 import numpy, OpenImageIO
 scene = Scene.load(sys.argv[1])
 held, found, check = machine.resident(), [], job_memory.parts
-job_memory.parts = lambda *given: found.append(check(*given)) or found[-1]
-job = Job(scene, **json.loads(sys.argv[2]))
+job_memory.parts = lambda *given, **more: found.append(check(*given, **more)) or found[-1]
+options = json.loads(sys.argv[2])
+job = Job(scene, **options)
 for _ in job.passes():
-    pass
+    if options.get("checkpoints"):
+        job.checkpoint().write(sys.argv[3])
 job.image()
 print(held + sum(found[0].values()), machine.peak_memory())
 """
@@ -68,14 +70,26 @@ print(held + sum(found[0].values()), machine.peak_memory())
     [
         ("cornell", {"samples": 1, "size": [1200, 1200]}),
         ("cornell", {"samples": 1, "size": [1000, 1000], "keep_spectra": True}),
+        ("cornell", {"samples": 1, "size": [1000, 1000], "checkpoints": True}),
         ("cornell", {"samples": 1, "size": [16, 16], "technique": "radiosity", "light_samples": 1}),
+        (
+            "cornell",
+            {
+                "samples": 1,
+                "size": [16, 16],
+                "technique": "radiosity",
+                "light_samples": 1,
+                "checkpoints": True,
+            },
+        ),
         ("bunny", {"samples": 1, "size": [600, 600], "layers": "depth,normal,albedo"}),
         ("tiles", {"samples": 1, "size": [600, 600]}),
     ],
 )
-def test_the_estimate_is_not_below_what_is_measured(name, options):
+def test_the_estimate_is_not_below_what_is_measured(name, options, tmp_path):
+    given = [str(ROOT / f"scenes/{name}.toml"), json.dumps(options), str(tmp_path / "a.ckpt")]
     done = subprocess.run(
-        [sys.executable, "-c", MEASURED, str(ROOT / f"scenes/{name}.toml"), json.dumps(options)],
+        [sys.executable, "-c", MEASURED, *given],
         capture_output=True,
         text=True,
         timeout=120,

@@ -96,6 +96,10 @@ def array(
         raise ValueError("has a damaged header") from error
     if kind.hasobject:
         raise ValueError("holds Python objects")
+    if any(
+        isinstance(side, bool) for side in shape
+    ):  # which NumPy takes for a number here, and for none later
+        raise ValueError("has a damaged header")
     needed = math.prod(shape) * kind.itemsize
     if any(side < 0 for side in shape) or needed > size:
         raise ValueError(f"states the shape {shape}, for which it is too short")

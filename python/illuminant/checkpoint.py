@@ -5,8 +5,8 @@ samples are complete, the time that was spent, the solution of the light between
 identity of the render: scene, settings, versions. One of another identity is refused with each difference named.
 
 The file: a line with the form, the length of a header in 8 bytes (little-endian), the header (JSON), the blocks that it
-names, and the SHA-256 digest of all before it. It is written beside the old one (`.FILE.part`), flushed to the disk and
-then renamed, so that at every moment there is a whole checkpoint: the new one or the one before.
+names, and the SHA-256 digest of all before it. It is written beside the old one, flushed to the disk and then renamed
+(`illuminant.output`), so that at every moment there is a whole checkpoint: the new one or the one before.
 
 Example:
     >>> import tempfile, pathlib
@@ -92,8 +92,7 @@ class Checkpoint:
                     file.write(block)
                 file.write(digest.digest())
 
-        # One name, so that what a killed process leaves is removed by the next one.
-        output.write(path, encode, temporary=f".{path.name}.part")
+        output.write(path, encode)
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Checkpoint:

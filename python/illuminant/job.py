@@ -146,6 +146,7 @@ class Job:
         checkpoint: of the same render, which goes on from there.
         solve_by: solves for the light between surfaces in place of this process's threads: takes the scene and the
             settings, and returns the core's solution, or None to leave it to them.
+        checkpoints: whether some will be made, which takes memory.
         allow_outside, memory_limit: as for `illuminant.render`.
         options: as `illuminant.render`.
 
@@ -165,12 +166,13 @@ class Job:
         like: Job | None = None,
         checkpoint: Checkpoint | None = None,
         solve_by: Callable[[Scene, Settings], Any] | None = None,
+        checkpoints: bool = False,
         allow_outside: bool = False,
         memory_limit: int | str | None = None,
         **options: Any,
     ) -> None:
         with machine.limited_to(memory_limit):
-            self._prepare(scene, solution, like, checkpoint, solve_by, allow_outside, options)
+            self._prepare(scene, solution, like, checkpoint, solve_by, checkpoints, allow_outside, options)
 
     def _prepare(
         self,
@@ -179,6 +181,7 @@ class Job:
         like: Job | None,
         checkpoint: Checkpoint | None,
         solve_by: Callable[[Scene, Settings], Any] | None,
+        checkpoints: bool,
         allow_outside: bool,
         options: dict[str, Any],
     ) -> None:
@@ -200,7 +203,8 @@ class Job:
         check_shadow_maps(self.settings, description)
         solved = 0 if solution is not None else len(checkpoint.solution) if checkpoint is not None else 0
         known = solution is not None or solved > 0
-        job_memory.check(self.settings, self.scene, width * height, lamps, solved if known else None)
+        light = solved if known else None
+        job_memory.check(self.settings, self.scene, width * height, lamps, light, checkpoints=checkpoints)
         embree()
         self._spent, self._kept_solution = 0.0, b""
         self._identity: dict[str, Any] = {}

@@ -5,7 +5,7 @@
 | film and image | `film_memory.memory_needed` | 130 a pixel of 148, 360 of 436 with 8 lanes kept |
 | geometry | its arrays once more, and 100 a triangle for the ray structure | 236 MB for 2.0 million triangles |
 | images of surfaces and surroundings | 50 a pixel | 48 while tables are made, 18 and 30 after it |
-| form factors | 18.5 each: 8, and as they are put together | 18 to 19 |
+| form factors | 18.5 each: 8, and as they are put together; 25 with checkpoints, which hold copies | 18 to 19; 25 |
 | directions of `specular-radiosity` | 12 a lane and cell | 11 |
 | shadow maps | `film_memory.shadow_map_memory`, at most | fewer where a lamp sees part of the scene |
 
@@ -43,7 +43,7 @@ __all__ = ["check", "parts"]
 LIBRARIES = 50_000_000
 """Embree, threads, and what a small scene takes."""
 
-BYTES_A_TRIANGLE, BYTES_A_PIXEL, BYTES_A_FACTOR = 100, 50, 18.5
+BYTES_A_TRIANGLE, BYTES_A_PIXEL, BYTES_A_FACTOR, BYTES_A_KEPT_FACTOR = 100, 50, 18.5, 25.0
 SIDES_AN_ELEMENT, FACTORS_A_RAY = 1.3, 0.75
 COPIES = 2
 """Of the bytes of a solution while it is read: its arrays, and those of the core."""
@@ -52,7 +52,13 @@ ELEMENTS_MORE = 1.2
 
 
 def parts(
-    settings: Settings, scene: Scene, pixels: int, lamps: int, solution: int | None = None
+    settings: Settings,
+    scene: Scene,
+    pixels: int,
+    lamps: int,
+    solution: int | None = None,
+    *,
+    checkpoints: bool = False,
 ) -> dict[str, int]:
     """Bytes of each part that there is, beside what the process holds.
 
@@ -63,6 +69,8 @@ def parts(
         lamps: how many lamps the scene has.
         solution: bytes from which the light between surfaces is still to be read; 0 where the core has it already,
             None where it must be solved for.
+        checkpoints: whether some will be made. That of a film takes 14 bytes a channel while it is made, less than the
+            image later does.
     """
     arrays = scene.arrays
     shapes = [array for name, array in arrays.items() if name.startswith("shape:")]
@@ -81,11 +89,13 @@ def parts(
     }
     if settings.technique in SOLVED or settings.technique == "specular-radiosity":
         solved = solution is not None
-        found["radiosity"] = COPIES * (solution or 0) if solved else _radiosity(settings, scene.triangles)
+        found["radiosity"] = (
+            COPIES * (solution or 0) if solved else _radiosity(settings, scene.triangles, checkpoints)
+        )
     return {name: count for name, count in found.items() if count}
 
 
-def _radiosity(settings: Settings, triangles: int) -> int:
+def _radiosity(settings: Settings, triangles: int, checkpoints: bool) -> int:
     elements = ELEMENTS_MORE * settings.elements + triangles
     sides = SIDES_AN_ELEMENT * elements
     values = lanes(settings.sampling)
@@ -101,16 +111,25 @@ def _radiosity(settings: Settings, triangles: int) -> int:
     if settings.solver == "progressive":
         each = 0
     dense = 4 * patches**2 * values if settings.solver == "gauss" else 0
-    return int(BYTES_A_FACTOR * sides * each + dense + 40 * values * sides)
+    of_a_factor = BYTES_A_KEPT_FACTOR if checkpoints else BYTES_A_FACTOR
+    return int(of_a_factor * sides * each + dense + 40 * values * sides)
 
 
-def check(settings: Settings, scene: Scene, pixels: int, lamps: int, solution: int | None = None) -> None:
+def check(
+    settings: Settings,
+    scene: Scene,
+    pixels: int,
+    lamps: int,
+    solution: int | None = None,
+    *,
+    checkpoints: bool = False,
+) -> None:
     """Refuse what does not fit into the memory that may be used (`machine.limited_to`); arguments as `parts`.
 
     Raises:
         MachineError: one sentence with both amounts and the largest parts.
     """
-    found = parts(settings, scene, pixels, lamps, solution)
+    found = parts(settings, scene, pixels, lamps, solution, checkpoints=checkpoints)
     largest = sorted(found, key=lambda name: -found[name])[:3]
     told = ", ".join(f"{name} {machine.size(found[name])}" for name in largest)
     machine.refuse(f"This render ({told})", sum(found.values()))

@@ -2,7 +2,9 @@
 
 A file is written under another name in the same folder and with the same extension (some encoders choose the
 format by it), flushed to the disk, and then renamed, which replaces an older file in one step. Whatever goes
-wrong in between, the older file is still there and nothing half-written remains.
+wrong in between, the older file is still there and nothing half-written remains. Where the process itself is killed,
+its `.NAME.illuminant-XXXXXXXX.EXT` stays until the next one that writes, or is about to write, the same file: who
+writes holds a lock on it (flock), so what nobody has locked is nobody's.
 
 Errors: a path that cannot be an output (no such folder, a folder itself, no permission) is an `ImageError`,
 since another path helps; a full or failing disk is a `MachineError`.
@@ -18,7 +20,9 @@ Example:
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
+import re
 import tempfile
 from collections.abc import Callable
 from contextlib import suppress
@@ -72,27 +76,46 @@ def _checked(path: Path) -> Path:
         raise ImageError(f"{path} cannot be written: it is a folder, so name a file in it.")
     if path.exists() and not path.is_file():
         raise ImageError(f"{path} cannot be written: it is not an ordinary file.")
-    if not path.parent.is_dir():
-        raise ImageError(f"{path} cannot be written: there is no folder {path.parent}.")
-    _remove(_temporary(path))
-    return path
-
-
-def _temporary(path: Path) -> Path:
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem[:100]}-", suffix=path.suffix, dir=path.parent)
+    target = _target(path)
+    if not target.parent.is_dir():
+        raise ImageError(f"{path} cannot be written: there is no folder {target.parent}.")
+    _remove_abandoned(target)
+    handle, place = _temporary(target)
     os.close(handle)
-    return Path(name)
-
-
-def _fresh(path: Path) -> Path:
-    """An empty file of this name, in the place of whatever a killed process, or somebody else, has left there."""
-    _remove(path)
-    os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
+    place.unlink(missing_ok=True)
     return path
 
 
-def _remove(path: Path) -> None:
-    path.unlink(missing_ok=True)
+def _target(path: Path) -> Path:
+    """The file itself: a link is kept, and what it points to is replaced."""
+    return path.resolve() if path.is_symlink() else path
+
+
+def _prefix(path: Path) -> str:
+    return f".{path.stem[:100]}.illuminant-"
+
+
+def _temporary(path: Path) -> tuple[int, Path]:
+    """A new file beside the path, and a handle that has it locked until it is closed."""
+    handle, name = tempfile.mkstemp(prefix=_prefix(path), suffix=path.suffix, dir=path.parent)
+    with suppress(OSError):  # not every file system has locks
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    return handle, Path(name)
+
+
+def _remove_abandoned(path: Path) -> None:
+    """Remove what killed processes have left of this file."""
+    abandoned = re.compile(rf"{re.escape(_prefix(path))}\w{{8}}{re.escape(path.suffix)}")
+    with suppress(OSError), os.scandir(path.parent) as entries:
+        names = [entry.path for entry in entries if abandoned.fullmatch(entry.name)]
+        for name in names:
+            with suppress(OSError):
+                handle = os.open(name, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
+                try:
+                    fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    os.unlink(name)
+                finally:
+                    os.close(handle)
 
 
 def _permissions(path: Path) -> int:
@@ -105,31 +128,29 @@ def _permissions(path: Path) -> int:
         return 0o666 & ~mask
 
 
-def write(path: str | os.PathLike[str], encode: Callable[[Path], None], temporary: str | None = None) -> None:
+def write(path: str | os.PathLike[str], encode: Callable[[Path], None]) -> None:
     """Write a file atomically.
 
     Args:
         path: the file to make or to replace.
         encode: writes everything to the path it is given and raises when it cannot; called once.
-        temporary: the name under which it is written first, in the same folder; default a new one. What has that name
-            is removed.
 
     Raises:
         ImageError: the path cannot be an output.
         MachineError: the disk is full or fails. In both cases `path` is as it was before.
     """
     path = check(path)
-    # A link is kept, and what it points to is replaced.
-    target = path.resolve() if path.is_symlink() else path
+    target = _target(path)
     try:
-        place = _temporary(target) if temporary is None else _fresh(target.with_name(temporary))
+        handle, place = _temporary(target)
         try:
             encode(place)
             os.chmod(place, _permissions(target))
             _flush(place)
             os.replace(place, target)
         finally:
-            _remove(place)
+            place.unlink(missing_ok=True)
+            os.close(handle)
         # The new name, too, is on the disk only now: a power cut would bring back the old file. Not every folder can
         # be flushed, and the file is there.
         with suppress(OSError):

@@ -249,6 +249,7 @@ def render(
         mechanisms=mechanisms,
         frustum=frustum,
         cube=cube,
+        checkpoints=checkpoint is not None,
         allow_outside=allow_outside,
         memory_limit=memory_limit,
     )

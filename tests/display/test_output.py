@@ -2,6 +2,7 @@
 
 import os
 import resource
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -54,6 +55,53 @@ def test_a_failure_leaves_the_older_file(tmp_path: Path) -> None:
         output.write(path, fail)
     assert path.read_bytes() == b"old"
     assert [item.name for item in tmp_path.iterdir()] == ["a.bin"]
+
+
+def test_a_link_into_no_folder(tmp_path: Path) -> None:
+    (tmp_path / "link.bin").symlink_to(tmp_path / "none" / "real.bin")
+    with pytest.raises(ImageError, match=r"link\.bin cannot be written: there is no folder .*none\."):
+        output.write_bytes(tmp_path / "link.bin", b"new")
+
+
+_KILLED = """
+import os, signal, sys
+from illuminant import output
+def encode(temporary):
+    temporary.write_bytes(b"half")
+    os.kill(os.getpid(), signal.SIGKILL)
+output.write(sys.argv[1], encode)
+"""
+
+
+def test_what_a_killed_process_leaves_goes_when_the_file_is_written_again(tmp_path: Path) -> None:
+    path = tmp_path / "a.bin"
+    done = subprocess.run([sys.executable, "-c", _KILLED, str(path)], check=False, timeout=60)
+    assert done.returncode == -signal.SIGKILL
+    (left,) = tmp_path.iterdir()
+    assert left.name.startswith(".a.illuminant-") and left.read_bytes() == b"half"
+    output.check(tmp_path / "b.bin")  # another file is none of its business
+    assert left.exists()
+    output.check(path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_another_writes_right_now_stays(tmp_path: Path) -> None:
+    path = tmp_path / "a.bin"
+
+    def encode(temporary: Path) -> None:
+        output.write_bytes(path, b"the other")
+        temporary.write_bytes(b"this one")
+
+    output.write(path, encode)
+    assert path.read_bytes() == b"this one"
+    assert [item.name for item in tmp_path.iterdir()] == ["a.bin"]
+
+
+def test_a_link_with_the_name_of_what_was_left_is_not_followed(tmp_path: Path) -> None:
+    (tmp_path / "precious").write_bytes(b"kept")
+    (tmp_path / ".a.illuminant-abcdefgh.bin").symlink_to(tmp_path / "precious")
+    output.write_bytes(tmp_path / "a.bin", b"new")
+    assert (tmp_path / "precious").read_bytes() == b"kept"
 
 
 @pytest.mark.parametrize(

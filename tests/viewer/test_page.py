@@ -14,6 +14,7 @@ import numpy as np
 import PIL.Image
 import pytest
 from matplotlib import colormaps
+from playwright.sync_api import TimeoutError as PlaywrightTimeoutError
 
 from illuminant.viewer import view
 from illuminant.viewer.composition import compose
@@ -115,8 +116,17 @@ class Page:
     def choose(self, label: str, value: str) -> None:
         """Choose from a list, and wait until something else is rendered."""
         number = self.session.refiner._number
-        self.page.get_by_label(label, exact=True).first.click()
-        self.page.get_by_role("option", name=value, exact=True).click()
+
+        def chosen() -> bool:
+            # A list that is clicked while its tab still unfolds closes again.
+            self.page.get_by_label(label, exact=True).first.click()
+            try:
+                self.page.get_by_role("option", name=value, exact=True).click(timeout=10_000)
+            except PlaywrightTimeoutError:
+                return False
+            return True
+
+        self.until(chosen)
         self.until(lambda: self.session.refiner._number > number)
 
 

@@ -112,12 +112,14 @@ impl PhotometricWeb {
             pairs
                 .map(|(angles, values)| {
                     let [a, b] = [angles[0], angles[1]].map(f64::to_radians);
-                    let slope = (values[1] - values[0]) / (b - a);
-                    // ∫ (v + s (γ − a)) sin γ dγ.
-                    let antiderivative = |x: f64| slope * x.sin() - (values[0] + slope * (x - a)) * x.cos();
-                    antiderivative(b) - antiderivative(a)
+                    // ∫ (v̄ + Δv x / 2h) sin(m + x) dx over x from −h to h: nothing cancels, however near the angles are.
+                    let (middle, h) = (0.5 * (a + b), 0.5 * (b - a));
+                    let mean = 0.5 * (values[0] + values[1]);
+                    2.0 * mean * middle.sin() * h.sin()
+                        + (values[1] - values[0]) * middle.cos() * sinc_less_cos(h)
                 })
-                .sum()
+                .sum::<f64>()
+                .max(0.0)
         };
         let count = self.planes_deg.len();
         if count == 1 {
@@ -126,6 +128,12 @@ impl PhotometricWeb {
         let width = |i: usize| (self.planes_deg[(i + 1) % count] - self.planes_deg[i]).rem_euclid(360.0);
         (0..count).map(|i| 0.5 * width(i).to_radians() * (of_plane(i) + of_plane((i + 1) % count))).sum()
     }
+}
+
+/// sin h / h − cos h.
+fn sinc_less_cos(h: f64) -> f64 {
+    let h2 = h * h;
+    if h < 0.03 { h2 * (1.0 / 3.0 - h2 * (1.0 / 30.0 - h2 / 840.0)) } else { h.sin() / h - h.cos() }
 }
 
 #[cfg(test)]
@@ -171,6 +179,27 @@ mod tests {
         }
         let cell = std::f64::consts::PI / f64::from(rows) * std::f64::consts::TAU / f64::from(columns);
         assert!((sum * cell / web.flux() - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn the_flux_between_angles_that_nearly_coincide_is_that_of_a_ring() {
+        for gap in [1e-12, 1e-6, 0.1, 1.0, 10.0] {
+            for (low, high) in [(1.0, 1.0), (1.0, 0.0), (0.0, 1.0)] {
+                let web = PhotometricWeb::new(vec![0.0], vec![30.0, 30.0 + gap], vec![low, high]).unwrap();
+                // Simpson's rule is exact enough on so narrow a ring.
+                let [a, m, b] = [30.0f64, 30.0 + 0.5 * gap, 30.0 + gap].map(|x| x.to_radians());
+                let simpson = (low * a.sin() + 2.0 * (low + high) * m.sin() + high * b.sin()) * (b - a) / 6.0;
+                let ring = std::f64::consts::TAU * simpson;
+                assert!(
+                    web.flux() >= 0.0 && (web.flux() - ring).abs() <= 1e-4 * ring,
+                    "{gap}: {}",
+                    web.flux()
+                );
+            }
+        }
+        let cone = PhotometricWeb::new(vec![0.0], vec![0.0, 1e-9], vec![1.0, 0.0]).unwrap();
+        let solid_angle = std::f64::consts::PI * 1e-9f64.to_radians().powi(2);
+        assert!((cone.flux() / (solid_angle / 3.0) - 1.0).abs() < 1e-9);
     }
 
     #[test]

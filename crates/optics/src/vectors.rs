@@ -44,7 +44,8 @@ pub fn reflect<R: Real>(v: Vector<R>, n: Vector<R>) -> Vector<R> {
 pub fn refract<R: Real>(v: Vector<R>, n: Vector<R>, eta: R) -> Option<(Vector<R>, R)> {
     let cos_i = dot(v, n);
     let sin2_t = (R::one() - cos_i * cos_i).max(R::zero()) / (eta * eta);
-    if sin2_t >= R::one() {
+    // No number where the square of the index is too small for one: beyond every angle.
+    if !(sin2_t < R::one()) {
         return None;
     }
     let cos_t = (R::one() - sin2_t).sqrt();

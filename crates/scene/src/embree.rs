@@ -227,9 +227,10 @@ unsafe impl Sync for Device {}
 const INSTRUCTION_SET: &str = if cfg!(target_arch = "x86_64") { ",isa=avx2" } else { "" };
 
 impl Device {
-    /// A device that builds with so many threads; 0 is one for each core.
+    /// A device that builds with so many threads, 4096 at most; 0 is one for each core.
     pub fn new(threads: usize) -> Result<Self, EmbreeError> {
         let api = api()?;
+        let threads = threads.min(4096); // Embree starts as many as it is told
         let config = CString::new(format!("threads={threads}{INSTRUCTION_SET}")).unwrap_or_default();
         // SAFETY: the string lives through the call.
         let handle = unsafe { (api.new_device)(config.as_ptr()) };

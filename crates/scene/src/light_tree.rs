@@ -212,6 +212,13 @@ impl LightTree {
             .filter_map(|(i, e)| Some((i, (*e)?)))
             .filter(|(_, e)| sound(e))
             .collect();
+        // Only ratios count. Over a power of two, so that no bit changes, of the strongest: else sums leave the numbers.
+        let strongest = placed.iter().map(|(_, e)| e.strength);
+        let strongest = strongest
+            .chain(afar.iter().copied().filter(|light| light.is_finite()))
+            .fold(f32::MIN_POSITIVE, f32::max);
+        let unit = f32::from_bits(strongest.to_bits() & 0x7f80_0000);
+        placed.iter_mut().for_each(|(_, e)| e.strength /= unit);
         let mut tree = Self {
             nodes: Vec::new(),
             whole: Bounds::default(),
@@ -226,7 +233,7 @@ impl LightTree {
         let mut sum = 0.0;
         for (lamp, &light) in afar.iter().enumerate() {
             if extents[lamp].is_none() && light > 0.0 && light.is_finite() {
-                sum += light;
+                sum += light / unit;
                 tree.afar.push((lamp, sum));
             }
         }
@@ -454,6 +461,24 @@ mod tests {
         let d = point - e.middle();
         let cos = if e.facing > 0.0 { 1.0 } else { d.normalize().dot(e.axis).max(0.0) };
         e.strength * cos / d.length_squared()
+    }
+
+    #[test]
+    fn the_strongest_lamps_that_there_are_do_not_leave_the_numbers() {
+        let extents: Vec<Option<Extent>> = (0..40)
+            .map(|i| (i % 4 != 0).then(|| Extent { strength: f32::MAX, ..extent(i, i % 2 == 0) }))
+            .collect();
+        let afar: Vec<f32> = (0..40).map(|i| if i % 4 == 0 { f32::MAX } else { 0.0 }).collect();
+        let tree = LightTree::new(&extents, &afar);
+        let mut sum = 0.0;
+        for lamp in 0..40 {
+            sum += tree.probability(&[], Vec3::splat(3.0), Vec3::Z, lamp);
+        }
+        assert!((sum - 1.0).abs() < 1e-5, "{sum}");
+        for i in 0..200 {
+            let (lamp, probability) = tree.choose(&[], Vec3::splat(3.0), Vec3::Z, chance(i)).unwrap();
+            assert_eq!(probability, tree.probability(&[], Vec3::splat(3.0), Vec3::Z, lamp));
+        }
     }
 
     #[test]

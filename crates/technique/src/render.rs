@@ -269,6 +269,13 @@ impl Render {
         if scene.lamps.is_empty() {
             return Err(RenderError::NoLight);
         }
+        if settings.threads > Settings::MOST_THREADS {
+            return Err(RenderError::Setting(format!(
+                "threads must be 0 to {}, not {}",
+                Settings::MOST_THREADS,
+                settings.threads
+            )));
+        }
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads)
             .build()

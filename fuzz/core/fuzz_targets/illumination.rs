@@ -9,7 +9,8 @@ use illuminant_illumination::{
 use illuminant_optics::facets::Shape;
 use illuminant_sampling::{Lanes, Uniform};
 use illuminant_spectrum::{Curve, SpectralRange};
-use libfuzzer_sys::fuzz_target;
+use libfuzzer_sys::{fuzz_mutator, fuzz_target, fuzzer_mutate};
+use std::cell::RefCell;
 
 const N: usize = 4;
 
@@ -62,15 +63,25 @@ fn numbers(lanes: &Lanes<N>, what: &str) {
     assert!((0..N).all(|i| lanes[i].is_finite() && lanes[i] >= -1e-3), "{what}: {lanes:?}");
 }
 
-fn ask<M: IlluminationModel<N> + Prepare>(material: &Material, model: Illumination, b: &mut Bytes<'_>) {
+/// What asks a prepared model so many questions as the bytes hold.
+type Asks = Box<dyn Fn(&mut Bytes<'_>)>;
+
+fn prepared<M: IlluminationModel<N> + Prepare + 'static>(
+    material: &Material,
+    model: Illumination,
+    b: &mut Bytes<'_>,
+) -> Asks {
     let range = SpectralRange::default();
     let basis = Uniform::new(N, range);
     let brightness = material.brightness(range) as f32;
     let prepared = M::prepare(material, model, brightness, &basis, 0..N, range);
     let (near, far) = (b.between(1.0, 3.0) as f32, b.between(1.0, 3.0) as f32);
+    Box::new(move |b| ask(&prepared, near, far, b))
+}
+
+fn ask<M: IlluminationModel<N>>(prepared: &M, near: f32, far: f32, b: &mut Bytes<'_>) {
     let lanes = [Lanes::splat(near), Lanes::splat(far)];
     let index = |mean: f32, lanes| Index { mean, least: mean, lanes };
-    // To prepare a model takes a thousand times as long as to ask it.
     for _ in 0..64 {
         if b.is_empty() {
             return;
@@ -102,14 +113,54 @@ fn ask<M: IlluminationModel<N> + Prepare>(material: &Material, model: Illuminati
     }
 }
 
-fuzz_target!(|data: &[u8]| {
-    let mut b = Bytes(data);
+/// The bytes that make the material and its model; the others are questions.
+const MATERIAL: usize = 96;
+
+/// Models that are kept, since to prepare one takes a thousand times as long as to ask it.
+const KEPT: usize = 64;
+
+thread_local! {
+    static MODELS: RefCell<Vec<(Vec<u8>, Asks)>> = const { RefCell::new(Vec::new()) };
+}
+
+fn model_of(head: &[u8]) -> Asks {
+    let mut b = Bytes(head);
     let material = Material::new("m", surface(&mut b));
     let models = Illumination::ALL;
     let model = models[usize::from(b.byte()) % models.len()];
     if model == Illumination::General {
-        ask::<General<N>>(&material, model, &mut b);
+        prepared::<General<N>>(&material, model, &mut b)
     } else {
-        ask::<Historic<N>>(&material, model, &mut b);
+        prepared::<Historic<N>>(&material, model, &mut b)
+    }
+}
+
+fuzz_target!(|data: &[u8]| {
+    let (head, questions) = data.split_at(data.len().min(MATERIAL));
+    MODELS.with_borrow_mut(|models| {
+        let at = models.iter().position(|(of, _)| of == head).unwrap_or_else(|| {
+            if models.len() == KEPT {
+                models.remove(0);
+            }
+            models.push((head.to_vec(), model_of(head)));
+            models.len() - 1
+        });
+        // The first is the one that was not asked for the longest time.
+        let asked = models.remove(at);
+        (asked.1)(&mut Bytes(questions));
+        models.push(asked);
+    });
+});
+
+// Sixteen times as many questions as materials.
+fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
+    if size > MATERIAL && seed % 16 != 0 {
+        MATERIAL + fuzzer_mutate(&mut data[MATERIAL..], size - MATERIAL, max_size - MATERIAL)
+    } else {
+        let changed = fuzzer_mutate(data, size, max_size);
+        // Long enough for questions.
+        let wanted = (MATERIAL + 64).min(max_size);
+        data[changed.min(wanted)..wanted].fill(seed as u8);
+        changed.max(wanted)
     }
 });

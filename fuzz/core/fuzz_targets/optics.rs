@@ -30,8 +30,13 @@ fuzz_target!(|data: &[u8]| {
     }
     unit(Frame::along(n, b.direction()).tangent);
     unit(Vec3::from(reflect(v.to_array(), [0.0, 0.0, 1.0])));
-    if let Some((t, _)) = refract(v.to_array(), [0.0, 0.0, 1.0], b.positive().clamp(1e-3, 1e3)) {
-        unit(Vec3::from(t));
+    let eta = b.positive();
+    if let Some((t, cos)) = refract(v.to_array(), [0.0, 0.0, 1.0], eta) {
+        assert!((0.0..=1.0).contains(&cos));
+        // Below, single precision knows no angle that is small enough.
+        if eta >= 1e-3 {
+            unit(Vec3::from(t));
+        }
     }
     if let Some(h) = half(v.to_array(), b.direction().to_array()) {
         unit(Vec3::from(h));
@@ -74,8 +79,7 @@ fuzz_target!(|data: &[u8]| {
     let (p, a, values) = (doubles(&mut b, planes), doubles(&mut b, angles), doubles(&mut b, planes * angles));
     if let Ok(web) = PhotometricWeb::new(p, a, values) {
         assert!(web.value(n.to_array().map(f64::from)) >= 0.0);
-        // Between angles that nearly coincide it cancels, and may end below 0.
-        assert!(web.flux().is_finite());
+        assert!(web.flux() >= 0.0);
     }
     if b.byte() == 0 {
         if let Ok(sky) = HosekWilkie::new(b.between(0.0, 12.0), b.between(-0.1, 1.1), b.between(-0.1, 1.6)) {

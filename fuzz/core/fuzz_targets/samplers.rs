@@ -46,12 +46,12 @@ fn light_tree(b: &mut Bytes<'_>) {
                 facing: b.unit() * std::f32::consts::PI,
                 spread: b.unit() * std::f32::consts::PI,
                 two_sided: b.byte() & 1 == 1,
-                strength: b.positive().min(1e30),
+                strength: b.positive(),
             })
         })
         .collect();
     let afar: Vec<f32> =
-        (0..count).map(|i| if extents[i].is_none() { b.positive().min(1e30) } else { 0.0 }).collect();
+        (0..count).map(|i| if extents[i].is_none() { b.positive() } else { 0.0 }).collect();
     let tree = LightTree::new(&extents, &afar);
     for _ in 0..4 {
         let (point, normal) = (b.point(), b.direction());

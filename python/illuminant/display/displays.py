@@ -344,12 +344,18 @@ def of_profile(profile: Profile, name: str) -> Display:
     Args:
         profile: from `illuminant.display.profile.read` or `decode`.
         name: for a profile that has no description.
+
+    Raises:
+        DataError: a curve sends all light at code 0.
+        UsageError: the display cannot be.
     """
     peak = profile.peak or 100.0
     # Measured curves may begin above 0: what all three channels send at code 0 is the display's black.
     lifts = [
         0.0 if gamma else float(table[0]) for table, gamma in zip(profile.table, profile.gammas, strict=True)
     ]
+    if max(lifts) >= 1.0:
+        raise DataError(f"{profile.description or name}: has a curve that sends all light at code 0.")
     responses = tuple(
         f"gamma {gamma:.6g}" if gamma else tuple(float((v - lift) / (1.0 - lift)) for v in table)
         for table, gamma, lift in zip(profile.table, profile.gammas, lifts, strict=True)

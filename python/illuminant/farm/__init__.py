@@ -130,6 +130,7 @@ def render(
             scene,
             checkpoint=before,
             solve_by=lambda scene, settings: solve(ray, scene, settings, threads=threads),
+            checkpoints=keeper is not None,
             **options,
         )
         log_warnings(job)
