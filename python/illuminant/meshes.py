@@ -99,7 +99,7 @@ def read(
         raise DataError("is too large for the memory of this machine", str(path)) from None
     except Exception as error:  # whatever a damaged file makes of the reader
         if kind == "obj" and isinstance(error, IndexError):
-            text = f"a face refers to a vertex that the file does not hold ({_clause(error)})"
+            text = f"a face refers to a vertex that the file does not hold ({' '.join(str(error).split())})"
             raise DataError(text, str(path)) from None
         raise DataError(f"cannot be read as {kind.upper()} ({_clause(error)})", str(path)) from None
     try:
@@ -287,5 +287,7 @@ def _joined(parts: list[Mesh]) -> Mesh:
 
 def _clause(error: Exception) -> str:
     """Text of an error as part of a sentence: one line, short, without its full stop."""
+    if isinstance(error, (NameError, AttributeError, LookupError, TypeError, AssertionError)):
+        return "its parts do not fit together"  # what the reader says of itself helps nobody
     text = " ".join(str(error).split()).rstrip(".") or type(error).__name__
     return text if len(text) <= 120 else text[:117] + "..."

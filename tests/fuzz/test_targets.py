@@ -6,10 +6,12 @@ that it must end in now; `ok` where it is read.
 
 import importlib.util
 import time
+import tomllib
 import tracemalloc
 import warnings
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import pytest
 from fuzz.execution import execute
@@ -137,3 +139,22 @@ def test_the_table_of_a_run_names_its_findings() -> None:
            "findings": [{"text": "ValueError at x.py:1: no", "times": 2}]}  # fmt: skip
     assert "500  3/4 lines" in table([one])
     assert table([one]).endswith("a: ValueError at x.py:1: no (2 times)")
+
+
+def test_the_lock_of_the_targets_in_rust_is_that_of_the_crates() -> None:
+    """Else cargo, told `--locked`, builds none of them."""
+    root = Path(__file__).parents[2]
+
+    def locked(path: Path) -> dict[str, dict[str, Any]]:
+        return {one["name"]: one for one in tomllib.loads(path.read_text(encoding="utf-8"))["package"]}
+
+    ours, theirs = locked(root / "fuzz/core/Cargo.lock"), locked(root / "Cargo.lock")
+    seen = 0
+    for manifest in sorted((root / "crates").glob("*/Cargo.toml")):
+        crate = tomllib.loads(manifest.read_text(encoding="utf-8"))
+        name = crate["package"]["name"]
+        if name in ours:
+            seen += 1
+            assert set(ours[name].get("dependencies", [])) == set(crate.get("dependencies", {})), name
+    assert seen > 5
+    assert ours["pxfm"]["version"] == theirs["pxfm"]["version"], "the functions are those of the program"
