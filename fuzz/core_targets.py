@@ -22,7 +22,7 @@ TARGETS: dict[str, int] = {
     "core-icc": 2_000_000,
     "core-description": 1_000_000,
     "core-optics": 2_000_000,
-    "core-illumination": 50_000,
+    "core-illumination": 500_000,
     "core-samplers": 2_000_000,
 }
 """Name, and executions in the long run."""

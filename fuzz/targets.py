@@ -356,7 +356,7 @@ def texture_exr(data: bytes) -> None:
     _environment(data, "t.exr")
 
 
-@target("density", "illuminant.resolution", wanted=200_000)
+@target("density", "illuminant.resolution")
 def density(data: bytes) -> None:
     """The density of a medium as a NumPy file."""
     from illuminant.scene_file import resolve
@@ -430,7 +430,7 @@ def scene_bytes(data: bytes) -> None:
     Scene.from_bytes(with_zip_checksums(data)).core(1)
 
 
-@target("solution", "illuminant.radiosity", longest=40000, wanted=100000)
+@target("solution", "illuminant.radiosity", longest=40_000)
 def solution(data: bytes) -> None:
     """A solution of the light between surfaces, its checksums made right."""
     from illuminant import radiosity
@@ -456,19 +456,19 @@ def checkpoint(data: bytes) -> None:
 
 
 @functools.cache
-def _core_scene() -> tuple[Any, Any, dict[str, Any], str]:
+def _core_scene(file: Path) -> tuple[Any, Any, dict[str, Any]]:
     from illuminant.core import core, embree
     from illuminant.scene import Scene
 
     embree()
-    found = Scene.load(folder() / "asset.toml")
+    found = Scene.load(file)
     geometry = core().Geometry(found.shapes(), found.placements(), 1)
     images = {
         name.removeprefix("image:"): array
         for name, array in found.arrays.items()
         if name.startswith("image:")
     }
-    return core().Scene(geometry, json.dumps(found.description), images), geometry, images, ""
+    return core().Scene(geometry, json.dumps(found.description), images), geometry, images
 
 
 @target("description", "illuminant.scene", text=True, allowed=CORE, longest=40_000, guided=False)
@@ -476,16 +476,16 @@ def description(data: bytes) -> None:
     """The description of a scene, as the core reads it."""
     from illuminant.core import core
 
-    _, geometry, images, _ = _core_scene()
+    _, geometry, images = _core_scene(folder() / "asset.toml")
     core().Scene(geometry, data.decode("utf-8", "replace"), images)
 
 
-@target("settings", "illuminant.settings", text=True, allowed=CORE, wanted=100000, guided=False)
+@target("settings", "illuminant.settings", text=True, allowed=CORE, guided=False)
 def settings(data: bytes) -> None:
-    """Settings of a render, as the core reads them."""
+    """Settings of a render, as the core reads them; of a small scene, since tables of rough surfaces take time."""
     from illuminant.core import core
 
-    core().Render(_core_scene()[0], data.decode("utf-8", "replace"))
+    core().Render(_core_scene(Path(__file__).with_name("box.toml"))[0], data.decode("utf-8", "replace"))
 
 
 @functools.cache
@@ -495,7 +495,7 @@ def _render() -> Any:
     return Job(folder() / "asset.toml", size=(8, 8), samples=1, sampling="uniform:4", threads=1).core_render
 
 
-@target("part", "illuminant.checkpoint", allowed=CORE, longest=20000, wanted=500000, guided=False)
+@target("part", "illuminant.checkpoint", allowed=CORE, longest=20_000, guided=False)
 def part(data: bytes) -> None:
     """What a film held, as another process or a checkpoint brings it."""
     render = _render()
@@ -507,7 +507,7 @@ def part(data: bytes) -> None:
         finite(np.asarray(render.layer("xyz")))
 
 
-@target("render", "illuminant.job", text=True, longest=6000, wanted=20_000, most_seconds=60.0)
+@target("render", "illuminant.job", text=True, longest=6000, most_seconds=60.0)
 def render(data: bytes) -> None:
     """A scene file, and an image of a few pixels of it: no number of the image may be none unless it is counted."""
     import numpy as np
