@@ -196,9 +196,19 @@ def resumed(path: str | os.PathLike[str], *, resume: bool) -> Checkpoint | None:
     """
     if not Path(path).exists():
         return None
+    if not resume and not _is_checkpoint(path):
+        raise UsageError(f"{os.fspath(path)} is there already, and is no checkpoint: name another file.")
     if not resume:
         raise UsageError(f"{os.fspath(path)} holds a checkpoint: go on from it with --resume, or remove it.")
     return Checkpoint.read(path)
+
+
+def _is_checkpoint(path: str | os.PathLike[str]) -> bool:
+    try:
+        with sources.opened(path, MAX_BYTES) as file:
+            return file.read(len(FIRST_LINE) - 2) == FIRST_LINE[:-2]
+    except SourceError:
+        return False
 
 
 class Keeper:
@@ -207,7 +217,8 @@ class Keeper:
     Args:
         path: the file.
         every: seconds between checkpoints.
-        trouble: is told when one cannot be written; the render goes on, and the checkpoint before stays.
+        trouble: is told when one cannot be written; the render goes on, and the checkpoint before stays. So it is
+            where another process has written the file meanwhile, whose work is not overwritten.
     """
 
     def __init__(
@@ -220,6 +231,15 @@ class Keeper:
         self.every = every
         self._trouble = trouble
         self._last = time.monotonic()
+        self._left = self._there()
+
+    def _there(self) -> tuple[int, int] | None:
+        """What tells the file that is there now from others."""
+        try:
+            found = self.path.stat()
+        except OSError:
+            return None
+        return found.st_ino, found.st_mtime_ns
 
     def due(self) -> bool:
         """Whether it is time for the next one."""
@@ -228,7 +248,12 @@ class Keeper:
     def keep(self, job: Job) -> bool:
         """Write one; False if that was not possible."""
         try:
+            if self._there() not in (None, self._left):
+                raise UsageError(
+                    f"{self.path} is written by another process too: give each a file of its own."
+                )
             job.checkpoint().write(self.path)
+            self._left = self._there()
         except (Error, MemoryError, ValueError) as error:
             if self._trouble is not None:
                 told = (

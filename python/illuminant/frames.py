@@ -166,8 +166,7 @@ def render_frames(
     for number in numbers:
         for path in sequence.files(number):
             check_output(path)
-    if not again:
-        sequence.adopt_exposure(numbers)
+    sequence.adopt_exposure(set(numbers) if again else set())
     before: Scene | None = None
 
     def frame(done: int, number: int) -> Frame:
@@ -267,22 +266,26 @@ class _Sequence:
         """The files of a frame."""
         return tuple(dict.fromkeys(file_of(pattern, number) for pattern in self.patterns))
 
-    def adopt_exposure(self, numbers: list[int]) -> None:
-        """Take the exposure of the first picture that is there."""
+    def adopt_exposure(self, but: set[int]) -> None:
+        """Take the exposure of the first picture of the whole sequence that is there, `but` for some frames."""
         from illuminant import png
 
-        pictures = [
-            path for number in numbers for path in self.files(number) if path.suffix.lower() == ".png"
-        ]
-        for path in pictures if self.exposure is None else ():
-            try:
-                header = png.read_header(path)
-                exposure = float(header.text.get("Exposure", "0"))
-            except (ImageError, ValueError):
-                continue
-            if "frame" in header.settings and 0 < exposure < float("inf"):
-                self.exposure = exposure
-                return
+        if self.exposure is not None:
+            return
+        replaced = {path for number in but for path in self.files(number)}
+        for number in range(self.animation.first, self.animation.last + 1):
+            for path in self.files(number):
+                if path.suffix.lower() != ".png" or path in replaced or not path.is_file():
+                    continue
+                try:
+                    header = png.read_header(path)
+                    exposure = float(header.text.get("Exposure", "0"))
+                except (ImageError, ValueError):
+                    continue
+                known = "frame" in header.settings and not header.settings.get("black")
+                if known and 0 < exposure < float("inf"):
+                    self.exposure = exposure
+                    return
 
     def header(self, number: int, scenes: list[Scene]) -> dict[str, Any]:
         """What the header of a frame says of how it is made, as far as it is known before the work."""
@@ -316,6 +319,7 @@ class _Sequence:
                 found = header.settings
                 exposure = float(header.text.get("Exposure", "0"))
                 same = self.exposure is None or float(f"{self.exposure:.9g}") == exposure
+                same |= isinstance(found, dict) and bool(found.get("black"))
                 if not same or header.look != self.look.to_dict():
                     return False
         except (ImageError, ValueError):
@@ -323,7 +327,7 @@ class _Sequence:
         if not isinstance(found, dict):
             return False
         # The scene is told by its hash; its path is as it was given, and another way to it leads to the same.
-        unsure = {"dropped", "scene"} | ({"samples"} if self._open_ended else set())
+        unsure = {"dropped", "scene", "black"} | ({"samples"} if self._open_ended else set())
         return {key: value for key, value in found.items() if key not in unsure} == {
             key: value for key, value in wanted.items() if key not in unsure
         }
@@ -339,13 +343,18 @@ class _Sequence:
         if len(jobs) > 1:
             image = _woven(image, jobs[1].image(), self.animation.fields)
         image.settings |= self._of_frame(number, [job.scene for job in jobs])
-        if self.exposure is None:
+        if not image.xyz.any():
+            image.settings["black"] = (
+                True  # it looks the same with every exposure, and says nothing of others
+            )
+        elif self.exposure is None:
             self.exposure = image.auto_exposure()
         return image
 
 
 def _asked(settings: Settings, rgb: str | None, half: bool) -> dict[str, Any]:
     """Options that a header says nothing about because they change no number, but what a file holds."""
+    open_ended = settings.time is not None or settings.error is not None
     return {
         **({"layers": list(settings.layers)} if settings.layers else {}),
         **({"lamps": True} if settings.lamps else {}),
@@ -353,7 +362,7 @@ def _asked(settings: Settings, rgb: str | None, half: bool) -> dict[str, Any]:
         **({"rgb": rgb} if rgb else {}),
         **({"half": True} if half else {}),
         **({"time": settings.time} if settings.time is not None else {}),
-        **({"samples": settings.samples} if settings.time is not None and settings.samples else {}),
+        **({"samples": settings.samples} if open_ended and settings.samples else {}),
     }
 
 

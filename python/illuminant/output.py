@@ -3,8 +3,8 @@
 A file is written under another name in the same folder and with the same extension (some encoders choose the
 format by it), flushed to the disk, and then renamed, which replaces an older file in one step. Whatever goes
 wrong in between, the older file is still there and nothing half-written remains. Where the process itself is killed,
-its `.NAME.illuminant-XXXXXXXX.EXT` stays until the next one that writes, or is about to write, the same file: who
-writes holds a lock on it (flock), so what nobody has locked is nobody's.
+its `.NAME.illuminant-XXXXXXXX.EXT` stays until the next one that writes the same file. Who writes holds a lock on it,
+so what nobody has locked is nobody's.
 
 Errors: a path that cannot be an output (no such folder, a folder itself, no permission) is an `ImageError`,
 since another path helps; a full or failing disk is a `MachineError`.
@@ -23,6 +23,7 @@ import errno
 import fcntl
 import os
 import re
+import struct
 import tempfile
 from collections.abc import Callable
 from contextlib import suppress
@@ -30,7 +31,14 @@ from pathlib import Path
 
 from illuminant.errors import Error, ImageError, MachineError
 
-__all__ = ["check", "write", "write_bytes"]
+__all__ = ["LONGEST_NAME", "check", "write", "write_bytes"]
+
+LONGEST_NAME = 255
+"""Bytes of the longest name of a file that Linux knows."""
+
+_MARK = ".illuminant-"
+_RANDOM = 8
+"""Letters that `tempfile.mkstemp` adds."""
 
 # Another path would meet the same trouble: the disk is full, over quota, failing, or refuses files of this size.
 _MACHINE = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG, errno.ENOMEM, errno.EMFILE, errno.ENFILE}
@@ -79,7 +87,6 @@ def _checked(path: Path) -> Path:
     target = _target(path)
     if not target.parent.is_dir():
         raise ImageError(f"{path} cannot be written: there is no folder {target.parent}.")
-    _remove_abandoned(target)
     handle, place = _temporary(target)
     os.close(handle)
     place.unlink(missing_ok=True)
@@ -88,32 +95,70 @@ def _checked(path: Path) -> Path:
 
 def _target(path: Path) -> Path:
     """The file itself: a link is kept, and what it points to is replaced."""
-    return path.resolve() if path.is_symlink() else path
+    if not path.is_symlink():
+        return path
+    try:
+        return path.resolve()
+    except RuntimeError:
+        raise ImageError(f"{path} cannot be written: it is a link that leads back to itself.") from None
 
 
-def _prefix(path: Path) -> str:
-    return f".{path.stem[:100]}.illuminant-"
+def _names(path: Path) -> tuple[str, str]:
+    """How names of the temporary files of a path begin and end: as its own, as far as the file system has room."""
+    suffix = path.suffix
+    room = LONGEST_NAME - len(".") - len(_MARK) - _RANDOM - len(os.fsencode(suffix))
+    if room < 0:
+        suffix, room = "", room + len(os.fsencode(suffix))
+    stem = path.stem
+    while len(os.fsencode(stem)) > room:
+        stem = stem[:-1]
+    return f".{stem}{_MARK}", suffix
 
 
 def _temporary(path: Path) -> tuple[int, Path]:
     """A new file beside the path, and a handle that has it locked until it is closed."""
-    handle, name = tempfile.mkstemp(prefix=_prefix(path), suffix=path.suffix, dir=path.parent)
-    with suppress(OSError):  # not every file system has locks
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    return handle, Path(name)
+    prefix, suffix = _names(path)
+    while True:
+        handle, name = tempfile.mkstemp(prefix=prefix, suffix=suffix, dir=path.parent)
+        # Another process may take it for abandoned before it is locked.
+        if _lock(handle) is not False and _is_there(handle, name):
+            return handle, Path(name)
+        os.close(handle)
+
+
+def _lock(handle: int) -> bool | None:
+    """Lock a file for this handle alone: False if another has it, None where the file system has no locks.
+
+    The lock lies on a byte far beyond the end, since some network shares refuse to write what is locked, even to its
+    owner; and belongs to the handle, not to the process, which may write the file with another thread.
+    """
+    one_byte = struct.pack("hhqqi4x", fcntl.F_WRLCK, os.SEEK_SET, 1 << 62, 1, 0)
+    try:
+        fcntl.fcntl(handle, fcntl.F_OFD_SETLK, one_byte)
+    except OSError as error:
+        return False if error.errno in (errno.EAGAIN, errno.EACCES) else None
+    return True
+
+
+def _is_there(handle: int, name: str) -> bool:
+    try:
+        return os.path.samestat(os.fstat(handle), os.lstat(name))
+    except FileNotFoundError:
+        return False
 
 
 def _remove_abandoned(path: Path) -> None:
     """Remove what killed processes have left of this file."""
-    abandoned = re.compile(rf"{re.escape(_prefix(path))}\w{{8}}{re.escape(path.suffix)}")
+    prefix, suffix = _names(path)
+    abandoned = re.compile(rf"{re.escape(prefix)}\w{{{_RANDOM}}}{re.escape(suffix)}")
     with suppress(OSError), os.scandir(path.parent) as entries:
         names = [entry.path for entry in entries if abandoned.fullmatch(entry.name)]
         for name in names:
             with suppress(OSError):
                 handle = os.open(name, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
                 try:
-                    fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                    os.unlink(name)
+                    if _lock(handle):
+                        os.unlink(name)
                 finally:
                     os.close(handle)
 
@@ -123,9 +168,18 @@ def _permissions(path: Path) -> int:
     try:
         return path.stat().st_mode & 0o7777
     except OSError:
+        return 0o666 & ~_umask()
+
+
+def _umask() -> int:
+    try:
+        # To ask for it by `os.umask` is to change it, for all threads.
+        with open("/proc/self/status", encoding="ascii", errors="replace") as status:
+            return next(int(line.split()[1], 8) for line in status if line.startswith("Umask:"))
+    except (OSError, StopIteration):
         mask = os.umask(0)
         os.umask(mask)
-        return 0o666 & ~mask
+        return mask
 
 
 def write(path: str | os.PathLike[str], encode: Callable[[Path], None]) -> None:
@@ -141,12 +195,13 @@ def write(path: str | os.PathLike[str], encode: Callable[[Path], None]) -> None:
     """
     path = check(path)
     target = _target(path)
+    _remove_abandoned(target)
     try:
         handle, place = _temporary(target)
         try:
             encode(place)
-            os.chmod(place, _permissions(target))
             _flush(place)
+            os.chmod(place, _permissions(target))
             os.replace(place, target)
         finally:
             place.unlink(missing_ok=True)

@@ -209,6 +209,7 @@ def render(
         >>> image.layers["depth"].shape                                                   # doctest: +SKIP
         (512, 512, 1)
     """
+    keeper = keeper_of(checkpoint, every)
     job = Job(
         scene,
         checkpoint=None if checkpoint is None else resumed(checkpoint, resume=resume),
@@ -249,12 +250,12 @@ def render(
         mechanisms=mechanisms,
         frustum=frustum,
         cube=cube,
-        checkpoints=checkpoint is not None,
+        checkpoints=keeper is not None,
         allow_outside=allow_outside,
         memory_limit=memory_limit,
     )
     log_warnings(job)
-    for _ in job.passes(progress, keeper_of(checkpoint, every)):
+    for _ in job.passes(progress, keeper):
         if on_partial is not None:
             on_partial(job.image())
     image = job.image()

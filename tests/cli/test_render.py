@@ -120,7 +120,7 @@ def test_dropped_samples_come_with_the_command_that_follows_them(scene: Path, in
     item = facts["dropped_samples"][0]
     (x, y), k = item["pixel"], item["sample"]
     assert item["object"] in ("ball", "floor", "lamp") and item["material"] in ("grey", "lamp")
-    again = f"illuminant render ball.toml --size 16x12 --depth 2 --seed 3 --pixel {x},{y} --sample {k}"
+    again = f"illuminant render ball.toml --samples 2 --size 16x12 --depth 2 --seed 3 --pixel {x},{y} --sample {k}"
     assert item["again"] == again
     lines = [line for line in done.stderr.splitlines() if line.startswith("Warning: Sample")]
     assert len(lines) == min(3, facts["dropped"])

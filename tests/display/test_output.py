@@ -79,10 +79,10 @@ def test_what_a_killed_process_leaves_goes_when_the_file_is_written_again(tmp_pa
     assert done.returncode == -signal.SIGKILL
     (left,) = tmp_path.iterdir()
     assert left.name.startswith(".a.illuminant-") and left.read_bytes() == b"half"
-    output.check(tmp_path / "b.bin")  # another file is none of its business
+    output.write_bytes(tmp_path / "b.bin", b"another file is none of its business")
     assert left.exists()
-    output.check(path)
-    assert not list(tmp_path.iterdir())
+    output.write_bytes(path, b"whole")
+    assert sorted(item.name for item in tmp_path.iterdir()) == ["a.bin", "b.bin"]
 
 
 def test_what_another_writes_right_now_stays(tmp_path: Path) -> None:
@@ -95,6 +95,30 @@ def test_what_another_writes_right_now_stays(tmp_path: Path) -> None:
     output.write(path, encode)
     assert path.read_bytes() == b"this one"
     assert [item.name for item in tmp_path.iterdir()] == ["a.bin"]
+
+
+def test_many_write_one_file_at_a_time(tmp_path: Path) -> None:
+    path = tmp_path / "a.bin"
+    script = "import sys; from illuminant import output\nfor i in range(300): output.write_bytes(sys.argv[1], b'whole')"
+    writers = [subprocess.Popen([sys.executable, "-c", script, str(path)]) for _ in range(4)]
+    assert [writer.wait(60) for writer in writers] == [0] * 4
+    assert [item.name for item in tmp_path.iterdir()] == ["a.bin"]
+    assert path.read_bytes() == b"whole"
+
+
+@pytest.mark.parametrize("name", ["図" * 78 + ".png", "a." + "b" * 240, "x" * 250 + ".toml", "a" * 255])
+def test_a_name_as_long_as_the_file_system_takes(tmp_path: Path, name: str) -> None:
+    output.write_bytes(tmp_path / name, b"whole")
+    assert [item.name for item in tmp_path.iterdir()] == [name]
+
+
+def test_a_link_in_a_circle(tmp_path: Path) -> None:
+    (tmp_path / "a.bin").symlink_to(tmp_path / "b.bin")
+    (tmp_path / "b.bin").symlink_to(tmp_path / "a.bin")
+    with pytest.raises(
+        ImageError, match=r"a\.bin cannot be written: it is a link that leads back to itself\."
+    ):
+        output.write_bytes(tmp_path / "a.bin", b"new")
 
 
 def test_a_link_with_the_name_of_what_was_left_is_not_followed(tmp_path: Path) -> None:

@@ -256,6 +256,28 @@ def test_a_full_disk_costs_the_newest_checkpoint_and_no_more(scenes, tmp_path, m
     assert [path.name for path in tmp_path.iterdir()] == ["image.ckpt"]
 
 
+def test_another_file_is_no_checkpoint_and_stays(inside, scenes, tmp_path):
+    scene = tmp_path / "a.toml"
+    scene.write_text("# precious")
+    with pytest.raises(
+        UsageError, match=r"a\.toml is there already, and is no checkpoint: name another file\."
+    ):
+        illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=scene)
+    words = ["render", scenes / "cornell.toml", "-o", tmp_path / "a.exr", "--checkpoint", tmp_path / "a.exr"]
+    assert "is the file of the image too" in inside(*words).stderr
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.toml"]
+    with pytest.raises(UsageError, match="every soon"):
+        illuminant.render("nowhere.toml", checkpoint=tmp_path / "a.ckpt", every="soon")
+
+
+def test_of_two_that_write_one_file_the_first_keeps_it(scenes, tmp_path):
+    job = Job(scenes / "cornell.toml", **SMALL)
+    told: list[str] = []
+    keepers = [Keeper(tmp_path / "a.ckpt", trouble=lambda error: told.append(str(error))) for _ in range(2)]
+    assert [keepers[i].keep(job) for i in (0, 1, 0)] == [True, False, True]
+    assert len(told) == 1 and "is written by another process too" in told[0]
+
+
 def test_the_command_keeps_and_resumes(inside, scenes, tmp_path):
     words = ["render", scenes / "cornell.toml", "-o", tmp_path / "a.exr", "--size", "40x24", "--json"]
     kept = ["--checkpoint", tmp_path / "a.ckpt", "--every", "1s"]

@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -12,6 +14,7 @@ import pytest
 
 import illuminant
 from illuminant import farm
+from illuminant.checkpoint import Checkpoint
 from illuminant.errors import MachineError, UsageError
 from illuminant.job import Job
 
@@ -174,8 +177,46 @@ def test_why_a_share_fails_on_its_worker_is_said(ray):
         list(dispatched(ray, broken, [(0, (7,))], threads=1))
 
 
+def test_what_a_lost_cluster_has_brought_is_kept(ray, scenes, tmp_path, same, monkeypatch):
+    from illuminant.farm import dispatch
+
+    whole = dispatch.dispatched
+
+    def lost(*given: Any, **more: Any) -> Iterator[Any]:
+        for count, found in enumerate(whole(*given, **more)):
+            if count == 3:
+                raise MachineError("The cluster is lost.")
+            yield found
+
+    monkeypatch.setattr(dispatch, "dispatched", lost)
+    file = tmp_path / "image.ckpt"
+    with pytest.raises(MachineError, match="is lost"):
+        farm.render(scenes / "cornell.toml", **SMALL, checkpoint=file)
+    assert Checkpoint.read(file).samples > 0
+    again = illuminant.render(scenes / "cornell.toml", **SMALL, checkpoint=file, resume=True)
+    same(again, illuminant.render(scenes / "cornell.toml", **SMALL))
+
+
+def test_a_batch_system_that_ends_it_loses_nothing(scenes, tmp_path):
+    """SIGTERM, which Ray would take for itself."""
+    pytest.importorskip("ray", reason="Ray is not installed")
+    file, words = tmp_path / "a.ckpt", ["--workers", "1", "--size", "64x64", "--samples", "1000000"]
+    kept = ["--checkpoint", str(file), "--every", "1s", "-o", str(tmp_path / "a.exr")]
+    program = [sys.executable, "-m", "illuminant", "farm", "render", str(scenes / "cornell.toml")]
+    process = subprocess.Popen([*program, *words, *kept], stderr=subprocess.PIPE, text=True)
+    end = time.monotonic() + 120.0
+    while not file.exists() and process.poll() is None and time.monotonic() < end:
+        time.sleep(0.1)
+    process.send_signal(signal.SIGTERM)
+    _, told = process.communicate(timeout=120)
+    assert process.returncode == 130, told
+    assert Checkpoint.read(file).samples > 0
+    assert illuminant.Image.open(tmp_path / "a.exr").xyz.shape == (64, 64, 3)
+
+
 def test_the_command_starts_and_stops_a_cluster(command, scenes, tmp_path):
     pytest.importorskip("ray", reason="Ray is not installed")
+    before = set(Path("/tmp").glob("ray-*"))
     words = ["farm", "render", scenes / "cornell.toml", "--size", "32x32", "--samples", "16"]
     done = command(*words, "--workers", 1, "-o", tmp_path / "a.exr")
     assert done.returncode == 0, done.stderr
@@ -185,6 +226,7 @@ def test_the_command_starts_and_stops_a_cluster(command, scenes, tmp_path):
         illuminant.Image.open(tmp_path / "a.exr").xyz.astype("f4").tobytes()
         == here.xyz.astype("f4").tobytes()
     )
+    assert set(Path("/tmp").glob("ray-*")) == before
     lost = command(*words, "--address", "127.0.0.1:1", "-o", tmp_path / "b.exr", timeout=120)
     assert lost.returncode == 3
     assert "cannot be reached at 127.0.0.1:1" in lost.stderr

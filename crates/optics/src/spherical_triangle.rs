@@ -58,7 +58,8 @@ impl<R: Real> SphericalTriangle<R> {
         let numerator = (q * t - p * s) * cos_alpha - q;
         let denominator = (q * s + p * t) * sin_alpha;
         let cos_b = if denominator.abs() > R::min_positive_value() { numerator / denominator } else { one };
-        let cos_b = cos_b.max(-one).min(one);
+        // On the edge AC, where rounding may have left it: nearly edge-on, little is left of numerator and denominator.
+        let cos_b = cos_b.max(dot(a, c)).max(-one).min(one);
         let sin_b = (one - cos_b * cos_b).max(R::zero()).sqrt();
         let along = |from: Vector<R>, to: Vector<R>| {
             let d = dot(from, to);
@@ -69,7 +70,8 @@ impl<R: Real> SphericalTriangle<R> {
         let z = one - u[1] * (one - dot(moved, b));
         let sin_z = (one - z * z).max(R::zero()).sqrt();
         let towards = along(b, moved);
-        normalize(std::array::from_fn(|i| z * b[i] + sin_z * towards[i]))
+        let direction: Vector<R> = std::array::from_fn(|i| z * b[i] + sin_z * towards[i]);
+        if dot(direction, direction) > R::min_positive_value() { normalize(direction) } else { b }
     }
 }
 
@@ -82,6 +84,23 @@ mod tests {
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let octant = SphericalTriangle::new(axes, [0.0f64; 3]).unwrap();
         assert!((octant.solid_angle() - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn slivers_give_unit_directions_near_them() {
+        for (width, height) in [(1e-6f32, 1.0), (1e-6, 1e-6), (1.0, 1e6), (1e-3, 1e6)] {
+            for step in 0..200 {
+                let tilt = step as f32 * 1e-8;
+                let corners = [[0.0, 0.0, 1.0], [width, tilt, 1.0], [width * 0.5, height * 1e-6, 1.0 + tilt]];
+                let Some(seen) = SphericalTriangle::new(corners, [0.0; 3]) else { continue };
+                for u in [[0.5, 0.5], [0.0, 0.5], [0.999_999_94, 0.5], [0.5, 0.999_999_94], [0.3, 0.0]] {
+                    let d = seen.sample(u);
+                    assert!((dot(d, d) - 1.0).abs() < 1e-5, "{corners:?} {u:?}: {d:?}");
+                    let least = corners.iter().map(|c| normalize(*c)[2]).fold(1.0f32, f32::min);
+                    assert!(d[2] > least - 1e-5, "{corners:?} {u:?}: {d:?}");
+                }
+            }
+        }
     }
 
     #[test]

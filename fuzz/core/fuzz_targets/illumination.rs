@@ -24,7 +24,8 @@ fn curve(b: &mut Bytes<'_>, low: f64, high: f64) -> Curve {
 }
 
 fn finish(b: &mut Bytes<'_>) -> Finish {
-    let slope = [b.positive(), b.positive()].map(|m| f64::from(m).min(10.0));
+    // Scene files have no rougher ones; tables of a slope of 3 take half a minute.
+    let slope = [b.positive(), b.positive()].map(|m| f64::from(m).min(1.0));
     let sigma_nm = (b.byte() & 1 == 1).then(|| f64::from(b.positive()).min(1e5));
     Finish { slope, sigma_nm, shape: if b.byte() & 1 == 1 { Shape::Ggx } else { Shape::Beckmann } }
 }
@@ -52,7 +53,7 @@ fn surface(b: &mut Bytes<'_>) -> Surface {
             flakes: (b.byte() & 1 == 1).then(|| Flakes {
                 n: curve(b, 0.01, 20.0),
                 k: curve(b, 0.0, 30.0),
-                slope: f64::from(b.positive()).clamp(0.0, 10.0),
+                slope: f64::from(b.positive()).clamp(0.0, 1.0),
                 coverage: b.between(0.0, 1.0),
             }),
         },

@@ -157,6 +157,9 @@ def run(arguments: Sequence[str], prog_name: str = "illuminant") -> int:
         if isinstance(error, OSError) and error.errno is not None:
             return _refused(error)
         return _foreign(error, prog_name)
+    except KeyboardInterrupt:  # before the command has begun
+        sentence("Interrupted", "nothing was written.")
+        return 130
     except BaseException as error:  # a panic of the core is no Exception
         if debug or isinstance(error, (SystemExit, GeneratorExit)):
             raise

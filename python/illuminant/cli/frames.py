@@ -42,6 +42,7 @@ def render_frames(
     from illuminant.cli.outcome import save as save_image
     from illuminant.cli.report import emit_json, note, progress_bar, warning
     from illuminant.cli.work import done_by
+    from illuminant.errors import Interrupted
 
     began = time.monotonic()
     options = dict(options)
@@ -86,6 +87,11 @@ def render_frames(
                 # Its film makes room for that of the next one.
                 del frame
                 stop.job = None
+                if stop.requested:
+                    raise KeyboardInterrupt
+        except KeyboardInterrupt:
+            there = len(frames.frame_numbers(wanted, animation.first, animation.last))
+            raise Interrupted(f"{len(done)} of {there} frames are there. The same command goes on.") from None
         finally:
             if json:
                 emit_json(done)
@@ -151,6 +157,8 @@ def _say_exposure(done: list[dict[str, Any]]) -> None:
     """Say which exposure all pictures were given, if nobody had chosen one."""
     from illuminant.cli.report import note
 
-    exposures = [facts["exposure"] for facts in done if facts.get("exposure")]
+    exposures = [
+        facts["exposure"] for facts in done if facts.get("exposure") and not facts["settings"].get("black")
+    ]
     if exposures:
         note(f"All pictures have one exposure; --exposure {exposures[0]:g} repeats it.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,18 +14,21 @@ if TYPE_CHECKING:
 
 __all__ = ["again_command", "facts", "print_path", "save", "say_dropped", "say_exposure"]
 
+_NOT_OF_A_PATH = {"threads", "layers", "keep_spectra", "lamps", "time"}
+
 SHOWN = 3
 """How many dropped samples are named one by one."""
 
 
 def again_command(scene: Path, options: dict[str, Any], allow_outside: bool) -> str:
-    """The command that follows a path of this render again, up to the pixel: all that changes random numbers."""
+    """The command that follows a path of this render again, up to the pixel: all options that a path depends on."""
     import shlex
 
-    names = ("technique", "illumination", "sampling", "size", "depth", "filter", "sampler", "seed", "error")
-    words = {f"--{name}": options[name] for name in names} | {"--develop-for": options["develop_for"]}
-    given = [part for word, value in words.items() if value is not None for part in (word, str(value))]
-    given += ["--caustics"] if options["caustics"] else []
+    given: list[str] = []
+    for name, value in options.items():
+        if value is not None and name not in _NOT_OF_A_PATH:
+            word = f"--{name.replace('_', '-')}"
+            given += [word] if value is True else [word, str(value)]
     given += ["--allow-outside"] if allow_outside else []
     return shlex.join(["illuminant", "render", str(scene), *given])
 
@@ -43,10 +47,15 @@ def save(image: Image, path: Path, *, half: bool, **look: Any) -> Saved:
     try:
         return image.save(path, half=half, **look)
     except (ImageError, MachineError) as error:
+        folder = None
         try:
-            kept = Path(tempfile.mkdtemp(prefix="illuminant-"), path.name)
+            folder = Path(tempfile.mkdtemp(prefix="illuminant-"))
+            kept = folder / path.name
             image.save(kept, half=half, **look)
         except (ImageError, MachineError, OSError):
+            if folder is not None:
+                with suppress(OSError):
+                    folder.rmdir()
             raise error from None
         raise type(error)(f"{str(error).rstrip('.')}; the image is kept as {kept}.") from error
 

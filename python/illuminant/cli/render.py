@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -366,6 +367,8 @@ def render(
             "--checkpoint: goes with one image; --frames passes over the frames that are finished."
         )
     paths = list(dict.fromkeys(output or [Path(scene.stem + ".png")]))
+    if checkpoint is not None and os.path.realpath(checkpoint) in map(os.path.realpath, paths):
+        raise UsageError(f"--checkpoint {checkpoint}: is the file of the image too; name another.")
     if pixel is None and frames is None:
         for path in paths:
             check_output(path)

@@ -161,7 +161,7 @@ def render_job(
 
     Raises:
         UsageError: no machine of the cluster has so many processors.
-        MachineError: the cluster is lost, or a share failed on its worker.
+        MachineError: the cluster is lost, or a share failed on its worker; the checkpoint has what was joined before.
     """
     from illuminant.farm.dispatch import dispatched, lanes
 
@@ -204,7 +204,9 @@ def render_job(
                 job.keep(keeper)
     except KeyboardInterrupt:
         job.interrupted = True
-    job.keep(keeper)
+    finally:
+        # Where the cluster is lost, what it has brought is not.
+        job.keep(keeper)
     report.seconds = time.monotonic() - began
     return report
 

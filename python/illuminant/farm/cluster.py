@@ -12,6 +12,10 @@ Example:
 from __future__ import annotations
 
 import os
+import shutil
+import signal
+import tempfile
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -69,8 +73,12 @@ def cluster(workers: int | None = None, address: str | None = None, threads: int
     if address is not None:
         _reach(address)
     options: dict[str, Any] = {"log_to_driver": False, "logging_level": "ERROR"}
+    folder = None
     if address is None:
+        # Ray leaves its folder behind. Its sockets lie in it, and their names must be short.
+        folder = tempfile.mkdtemp(prefix="ray-", dir="/tmp" if os.path.isdir("/tmp") else None)
         options |= {
+            "_temp_dir": folder,
             "address": "local",
             "num_cpus": threads * (workers or max(1, machine.cores() // threads)),
             "num_gpus": 0,
@@ -79,6 +87,9 @@ def cluster(workers: int | None = None, address: str | None = None, threads: int
         }
     else:
         options |= {"address": address}
+    # Ray puts its own way of ending in the place of the caller's, who has work to save.
+    mine = threading.current_thread() is threading.main_thread()
+    ended_by = signal.getsignal(signal.SIGTERM)
     # The token that Ray writes is for this user alone.
     mask = os.umask(0o077)
     try:
@@ -86,13 +97,22 @@ def cluster(workers: int | None = None, address: str | None = None, threads: int
     except Exception as error:  # Ray raises all kinds
         where = "be started" if address is None else f"be reached at {address}"
         reason = " ".join(str(error).split())[:300].rstrip(".")
+        _remove(folder)
         raise MachineError(f"The Ray cluster cannot {where}: {reason}.") from error
     finally:
         os.umask(mask)
+        if mine and ended_by is not None:
+            signal.signal(signal.SIGTERM, ended_by)
     try:
         yield ray
     finally:
         ray.shutdown()
+        _remove(folder)
+
+
+def _remove(folder: str | None) -> None:
+    if folder is not None:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _reach(address: str) -> None:
