@@ -33,6 +33,12 @@ MAX_BYTES = 4_000_000_000
 MOST_CHANNELS = 64
 """Channels of an image at most."""
 
+MOST_PIXELS_A_BYTE = 20_000
+"""How many pixels a byte of a file can stand for: deflate packs black ones of one bit 8,000 times."""
+
+PIXELS_A_BYTE = {"jpeg": 1000}
+"""The same for formats that cannot pack so well; a block of JPEG has 64 pixels and takes a bit or more."""
+
 BYTES_A_PIXEL = 12
 """Memory that a pixel takes beside the channels as they are read."""
 
@@ -51,7 +57,7 @@ def read(path: str | os.PathLike[str]) -> tuple[np.ndarray, bool]:
 
     path = Path(path)
     try:
-        sources.check(path, MAX_BYTES)
+        size = sources.check(path, MAX_BYTES)
     except SourceError as error:
         raise ImageError(f"{path}: {error.message}") from None
     source = oiio.ImageInput.open(str(path))
@@ -63,6 +69,8 @@ def read(path: str | os.PathLike[str]) -> tuple[np.ndarray, bool]:
             raise ImageError(
                 f"{path}: has {spec.width} × {spec.height} pixels; at most {MAX_PIXELS} can be used"
             )
+        if spec.width * spec.height > PIXELS_A_BYTE.get(source.format_name(), MOST_PIXELS_A_BYTE) * size:
+            raise ImageError(f"{path}: states {spec.width} × {spec.height} pixels, for which it is too short")
         if spec.nchannels > MOST_CHANNELS:
             raise ImageError(f"{path}: has {spec.nchannels} channels; at most {MOST_CHANNELS} are read")
         machine.check_file(path, spec.width * spec.height * (4 * spec.nchannels + BYTES_A_PIXEL))

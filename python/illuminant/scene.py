@@ -368,13 +368,14 @@ class Scene:
         """
         import io
 
-        from illuminant import archives
+        from illuminant import archives, scene_arrays
 
         try:
             arrays = archives.read(io.BytesIO(data))
             header = json.loads(arrays.pop("scene").tobytes())
             if header["format"] != FORMAT:
                 raise KeyError
+            scene_arrays.check(arrays)
             return cls(
                 header["description"],
                 arrays,
