@@ -41,6 +41,9 @@ NAME_OF_USE = {
     "k": "an extinction coefficient k",
     "absorption": "an absorption coefficient",
 }
+MOST_INDEX = 100.0
+"""The largest index of refraction or extinction coefficient in the scene's range; the core has the same."""
+
 WARN_DELTA_E = 0.5
 """The round-trip error of an upsampled RGB value (CIEDE2000) above which the scene warns."""
 
@@ -330,6 +333,12 @@ class Curves:
         steps = max(1, round(last - first))
         return tuple(first + (last - first) * i / steps for i in range(steps + 1))
 
+    def _most(self, spectrum: Spectrum) -> float:
+        """The largest value in the scene's range; curves of metals grow beyond."""
+        first, last = self.range_nm
+        pairs = zip(spectrum.wavelengths_nm, spectrum.values, strict=True)
+        return float(max((value for nm, value in pairs if first <= nm <= last), default=0.0))
+
     def _fit(self, spectrum: Spectrum, use: str, path: Path) -> Spectrum | None:
         """Make sure that a spectrum can be what it is used for."""
         if not use:
@@ -353,6 +362,8 @@ class Curves:
             wrong = f"{NAME_OF_USE[use]} is never negative, found {min(values):g}"
         elif use == "emission" and not max(values) > 0.0:
             wrong = "a spectrum of light is not zero everywhere"
+        elif use in ("n", "k") and (most := self._most(spectrum)) > MOST_INDEX:
+            wrong = f"{use} is at most {MOST_INDEX:g} in visible light, found {most:g}"
         if wrong:
             percent = use == "reflectance" and 1.5 < max(values) <= 100.0 and min(values) >= 0.0
             self.report.add(

@@ -112,7 +112,7 @@ class Camera(Table):
     up: Vector | None = key(
         "direction that is up in the image; default the world's up", "[0.0, 1.0, 0.0]", None
     )
-    field_of_view: Annotated[float, Field(gt=0, lt=180)] = key(
+    field_of_view: Annotated[float, Field(ge=0.001, lt=180)] = key(
         "angle across the width of the image, in degrees", "40.0", 40.0
     )
     size: Size = key(

@@ -90,6 +90,7 @@ MISTAKES = [
     ("size = [8, 8]", "size = [8.5, 8]", "type", "camera", "size[0]", "must be a whole number"),
     ("size = [8, 8]", "size = [0, 8]", "range", "camera", "size[0]", "must be at least 1"),
     ("size = [8, 8]", "field_of_view = 180", "range", "camera", "field_of_view", "must be below 180"),
+    ("size = [8, 8]", "field_of_view = 5e-324", "range", "camera", "field_of_view", "must be at least 0.001"),
     ("[materials.wall]", "[materials]\nwall = 3\n[materials.w]", "type", "materials.wall", "",
      "must be a table"),
     ('kind = "diffuse"', 'kind = "difuse"', "choice", "materials.wall", "kind", 'did you mean "diffuse"?'),
@@ -160,6 +161,8 @@ MISTAKES = [
     ('metal = "gold"', 'metal = "gold"\nn = 0.2', "exactly-one", "materials.metal", "n", "given twice"),
     ('medium = "BK7"', 'medium = "gold"', "spectrum-use", "materials.glass", "medium", "is a metal"),
     ('medium = "BK7"', "n = 0", "spectrum-value", "materials.glass", "n", "n must be above 0"),
+    ('medium = "BK7"', "n = 1e308", "spectrum-value", "materials.glass", "n", "n is at most 100 in visible light"),
+    ('metal = "gold"', "n = 0.2\nk = 101", "spectrum-value", "materials.metal", "k", "k is at most 100"),
     # --- quantities ---
     ("flux_lm = 800", "intensity_cd = 800", "quantity", "materials.bulb", "intensity_cd",
      "does not fit an emitter"),

@@ -14,7 +14,7 @@ pub enum CameraError {
     #[error("camera: up is parallel to the direction of view; choose another up")]
     Up,
     /// The field of view is out of range.
-    #[error("camera: field_of_view must lie between 0 and 180 degrees, and {0} does not")]
+    #[error("camera: field_of_view must lie between 0.001 and 180 degrees, and {0} does not")]
     FieldOfView(f64),
     /// The image or the crop has no pixels or too many.
     #[error("camera: {0}")]
@@ -142,7 +142,8 @@ impl Camera {
         if !(eye.is_finite() && target.is_finite() && up.is_finite()) {
             return Err(CameraError::NotFinite);
         }
-        if !(field_of_view_deg > 0.0 && field_of_view_deg < 180.0) {
+        // Narrower, and single precision has too few directions for its rays.
+        if !(field_of_view_deg >= 1e-3 && field_of_view_deg < 180.0) {
             return Err(CameraError::FieldOfView(field_of_view_deg));
         }
         let forward = (target - eye).try_normalize().ok_or(CameraError::NoDirection)?;

@@ -216,6 +216,26 @@ fn at_least(
     Ok(curve.clone())
 }
 
+/// Above every refractive index and absorption index of a material in the light that eyes see.
+const MOST_INDEX: f64 = 100.0;
+
+/// A curve of a refractive index, or of an absorption index.
+fn index_of(
+    curves: &[Curve],
+    place: &str,
+    what: &str,
+    index: usize,
+    least: f64,
+    range: SpectralRange,
+) -> Result<Curve, SceneError> {
+    let curve = at_least(curves, place, what, index, least, range)?;
+    let highest = curve.extent(range).1;
+    if highest > MOST_INDEX {
+        return Err(error(place, format!("{what} must not exceed {MOST_INDEX}, and it reaches {highest:.4e}")));
+    }
+    Ok(curve)
+}
+
 /// A curve from 0 to 1.
 pub(crate) fn fraction(
     curves: &[Curve],
@@ -257,6 +277,7 @@ fn shares(
 fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Result<Material, SceneError> {
     let place = format!("materials.{}", data.name);
     let at_least = |what: &str, index: usize, least: f64| at_least(curves, &place, what, index, least, range);
+    let index_of = |what: &str, index: usize, least: f64| index_of(curves, &place, what, index, least, range);
     let fraction = |what: &str, index: usize| fraction(curves, &place, what, index, range);
     let finish = |finish: &FinishData| {
         if finish.slope.iter().any(|m| !(0.0..=1.0).contains(m)) {
@@ -285,11 +306,11 @@ fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Resu
             Surface::Translucent { reflectance, transmittance }
         }
         SurfaceData::Conductor { n, k, finish: relief } => {
-            let (n, k) = (at_least("n", *n, 1e-4)?, at_least("k", *k, 0.0)?);
+            let (n, k) = (index_of("n", *n, 1e-4)?, index_of("k", *k, 0.0)?);
             Surface::Conductor { n, k, finish: finish(relief)? }
         }
         SurfaceData::Dielectric { n, finish: relief, absorption, dispersion } => Surface::Dielectric {
-            n: at_least("n", *n, 0.1)?,
+            n: index_of("n", *n, 0.1)?,
             finish: finish(relief)?,
             absorption: absorption.map(|a| at_least("absorption", a, 0.0)).transpose()?,
             dispersion: *dispersion,
@@ -308,14 +329,14 @@ fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Resu
                     return Err(error(&place, problem));
                 }
                 Ok(Flakes {
-                    n: at_least("n", flakes.n, 1e-4)?,
-                    k: at_least("k", flakes.k, 0.0)?,
+                    n: index_of("n", flakes.n, 1e-4)?,
+                    k: index_of("k", flakes.k, 0.0)?,
                     slope: flakes.slope,
                     coverage: flakes.coverage,
                 })
             });
             Surface::Coated {
-                n: at_least("n", *n, 1.0)?,
+                n: index_of("n", *n, 1.0)?,
                 finish: finish(relief)?,
                 film: film.transpose()?,
                 pigment: fraction("pigment", *pigment)?,
