@@ -37,6 +37,9 @@ from fuzz.targets import TARGETS  # noqa: E402
 
 LAST = ROOT / "fuzz" / "last-run.json"
 LARGEST_KEPT = 3000
+A_PROCESS = 50_000
+"""Inputs for one process: the engine and the libraries of images and meshes grow, and memory is limited."""
+
 MOST_KEPT = 24
 
 
@@ -48,15 +51,16 @@ def _say(text: str) -> None:
 def python_target(
     name: str, executions: int, seconds: float, seed: int, work: Path, plain: bool
 ) -> dict[str, Any]:
-    """One reader, in as many processes as faults make necessary."""
-    done, spent, faults = 0, 0.0, []
+    """One reader, in processes of `A_PROCESS` inputs each, and as many more as faults make necessary."""
+    done, spent, processes, faults = 0, 0.0, 0, []
     findings: dict[str, Any] = {}
     while done < executions and spent < seconds and len(faults) < 20:
         (work / "result.json").unlink(missing_ok=True)
         command = [
-            sys.executable, "-m", "fuzz.engine", name, "--executions", str(executions - done),
-            "--seconds", str(seconds - spent), "--seed", str(seed + len(faults)), "--work", str(work),
+            sys.executable, "-m", "fuzz.engine", name, "--executions", str(min(executions - done, A_PROCESS)),
+            "--seconds", str(seconds - spent), "--seed", str(seed + processes), "--work", str(work),
         ]  # fmt: skip
+        processes += 1
         with open(work / "engine.log", "ab") as log:
             code = subprocess.run(
                 command + ["--plain"] * plain,

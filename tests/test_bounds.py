@@ -192,6 +192,41 @@ def test_a_program_may_name_any_file_and_need_not(tmp_path):
         scene_file.resolve(data, tmp_path / "in", allow_outside=False)
 
 
+# --- odd numbers and names ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("parts", "sentence"),
+    [
+        ({"reflectance": '"s0"\n[spectra]\n' + "".join(f's{i} = "s{i + 1}"\n' for i in range(900)) + "s900 = 0.5"},
+         "is the end of 100 names for one spectrum"),
+        ({"shape": "sphere = {}\nmotion = [" + "{ translate = [0, 0, 0] }," * 129 + "]"}, "128"),
+        ({"reflectance": '0.5\n[animation]\nframes = [0, 1]\nframes_per_second = 5e-324'}, "at least 0.001"),
+        ({"reflectance": '0.5\n[camera.x]\n' + "".join(f"key{i} = 1\n" for i in range(1000))}, "is not a key"),
+        ({"reflectance": '0.5\n[materials."\\u001b]0;PWNED\\u0007"]'}, r"\\x1b\]0;PWNED\\x07"),
+    ],
+    ids=["chain", "motion", "rate", "many", "escape"],
+)  # fmt: skip
+def test_what_ended_in_no_sentence_once(tmp_path, parts, sentence):
+    path = scene(tmp_path / "a.toml", **parts)
+    begin = time.process_time()
+    with pytest.raises(SceneError, match=sentence) as caught:
+        illuminant.load(path)
+    assert time.process_time() - begin < 5.0
+    assert len(caught.value.problems) <= 200
+    assert "\x1b" not in str(caught.value)
+
+
+def test_memory_that_parsing_takes_is_counted(tmp_path):
+    path = scene(tmp_path / "a.toml")
+    path.write_text("k = [" + "{a=1}," * 500_000 + "]\n" + path.read_text())
+    with (
+        machine.limited_to(machine.resident() + 200_000_000),
+        pytest.raises(MachineError, match=r"a\.toml needs about"),
+    ):
+        illuminant.load(path)
+
+
 # --- bombs --------------------------------------------------------------------------------------------------------
 
 

@@ -36,7 +36,7 @@ def _rate_form(value: Any) -> str | None:
 
 
 RateValue = Annotated[
-    Annotated[str, Tag("<ratio>")] | Annotated[float, Field(gt=0, le=100_000), Tag("<number>")],
+    Annotated[str, Tag("<ratio>")] | Annotated[float, Field(ge=0.001, le=100_000), Tag("<number>")],
     Discriminator(
         _rate_form,
         custom_error_type="rate_form",

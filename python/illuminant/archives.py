@@ -91,7 +91,7 @@ def array(
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # that an array of Python 2 is slow to read
             shape, by_columns, kind = read_header(stream)
-    except (SyntaxError, TokenError, TypeError, MemoryError, RecursionError) as error:
+    except (SyntaxError, TokenError, TypeError, ValueError, MemoryError, RecursionError) as error:
         # The header is an expression of Python, and may be nested deeply or have lists as keys.
         raise ValueError("has a damaged header") from error
     if kind.hasobject:

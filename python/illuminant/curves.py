@@ -41,6 +41,9 @@ NAME_OF_USE = {
     "k": "an extinction coefficient k",
     "absorption": "an absorption coefficient",
 }
+MOST_NAMES = 100
+"""How many names may lead from one to the next before there is a spectrum."""
+
 MOST_INDEX = 100.0
 """The largest index of refraction or extinction coefficient in the scene's range; the core has the same."""
 
@@ -161,6 +164,11 @@ class Curves:
             if name in chain:
                 around = " → ".join([*chain[chain.index(name) :], name])
                 self.report.add(("spectra", name), f"is defined by itself: {around}", kind="cycle")
+                return None
+            if len(chain) >= MOST_NAMES:
+                self.report.add(
+                    ("spectra", name), f"is the end of {MOST_NAMES} names for one spectrum", kind="cycle"
+                )
                 return None
             value = self.named[name]
             spectrum = self._find(value, use, ("spectra", name), (*chain, name))

@@ -31,8 +31,12 @@ __all__ = [
     "Problem",
     "SceneError",
     "UsageError",
+    "printable",
     "suggestion",
 ]
+
+LONGEST_LINE = 2000
+"""Letters of a sentence that are shown at most."""
 
 
 def suggestion(word: str, words: Iterable[str]) -> str:
@@ -60,6 +64,18 @@ class Error(Exception):
     """
 
     exit_code: int = 2
+
+
+def printable(text: str) -> str:
+    """A line for people: what moves the cursor or changes colours is written as Python does, what is too long is cut.
+
+    Example:
+        >>> printable("red\\x1b[31m")
+        'red\\\\x1b[31m'
+    """
+    if len(text) > LONGEST_LINE:
+        text = f"{text[: LONGEST_LINE - 200]} ... {text[-195:]}"
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
 @dataclass(frozen=True)
@@ -91,7 +107,7 @@ class Problem:
             place += f":{self.line}"
         subject = " ".join(part for part in (f"[{self.table}]" if self.table else "", self.key) if part)
         text = f"{place}: {subject}: {self.message}" if subject else f"{place}: {self.message}"
-        return f"{text} ({self.hint})" if self.hint else text
+        return printable(f"{text} ({self.hint})" if self.hint else text)
 
 
 class SceneError(Error, ValueError):

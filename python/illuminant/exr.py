@@ -252,7 +252,10 @@ def read(path: str | Path) -> Contents:
             raise ImageError(f"{path} has {values:,} values: 1 to {LARGEST:,} are read.")
         names, attributes = _described(spec, path)
         colour = _colour(names, path)
-        machine.check_file(path, BYTES_A_VALUE * values)
+        tile = spec.tile_width * spec.tile_height * spec.nchannels
+        if tile > LARGEST:
+            raise ImageError(f"{path} has tiles of {tile:,} values: at most {LARGEST:,} are read.")
+        machine.check_file(path, BYTES_A_VALUE * (values + tile))
         pixels = file.read_image(oiio.FLOAT)
         if pixels is None:
             raise ImageError(f"{path} cannot be read: {_reason(file.geterror)}.")

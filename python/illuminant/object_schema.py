@@ -11,11 +11,14 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Tag
+from pydantic import Discriminator, Field, Tag
 
 from illuminant.table import Corners, Edges, Length, Matrix, Number, Table, Vector, key
 
 __all__ = ["Box", "Disc", "MeshTable", "MeshValue", "Move", "Object", "Rectangle", "Rotation", "Sphere"]
+
+MOST_MOVES = 128
+"""Steps of a motion: as many as Embree takes."""
 
 
 class Sphere(Table):
@@ -207,7 +210,7 @@ class Object(Table):
         "[[1.0, 0.0, 0.0, 0.5], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]",
         None,
     )
-    motion: list[Move] | None = key(
+    motion: Annotated[list[Move], Field(max_length=MOST_MOVES)] | None = key(
         "where the object is later, at even distances of time, the last at the end; between them it goes straight on",
         "[{ translate = [0.2, 0.5, 0.0] }]",
         None,

@@ -319,7 +319,9 @@ def _bilinear(
             return np.zeros(at.shape, int), np.zeros(at.shape), np.ones(at.shape, bool)
         i = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, len(nodes) - 2)
         inside = (at >= nodes[0] - 1e-6) & (at <= nodes[-1] + 1e-6)
-        return i, np.clip((at - nodes[i]) / (nodes[i + 1] - nodes[i]), 0, 1), inside
+        with np.errstate(over="ignore"):  # angles that nearly coincide
+            part = np.clip((at - nodes[i]) / (nodes[i + 1] - nodes[i]), 0, 1)
+        return i, part, inside
 
     i, s, in_h = place(h, turn)
     k, t, in_v = place(v, elevation)

@@ -69,11 +69,14 @@ def read(path: str | os.PathLike[str]) -> tuple[np.ndarray, bool]:
             raise ImageError(
                 f"{path}: has {spec.width} × {spec.height} pixels; at most {MAX_PIXELS} can be used"
             )
-        if spec.width * spec.height > PIXELS_A_BYTE.get(source.format_name(), MOST_PIXELS_A_BYTE) * size:
-            raise ImageError(f"{path}: states {spec.width} × {spec.height} pixels, for which it is too short")
+        most = PIXELS_A_BYTE.get(source.format_name(), MOST_PIXELS_A_BYTE) * size
+        for width, height in ((spec.width, spec.height), (spec.tile_width, spec.tile_height)):
+            if width * height > most:
+                raise ImageError(f"{path}: states {width} × {height} pixels, for which it is too short")
         if spec.nchannels > MOST_CHANNELS:
             raise ImageError(f"{path}: has {spec.nchannels} channels; at most {MOST_CHANNELS} are read")
-        machine.check_file(path, spec.width * spec.height * (4 * spec.nchannels + BYTES_A_PIXEL))
+        tile = 4 * spec.nchannels * spec.tile_width * spec.tile_height
+        machine.check_file(path, spec.width * spec.height * (4 * spec.nchannels + BYTES_A_PIXEL) + tile)
         pixels = source.read_image(0, 0, 0, spec.nchannels, "float")
         if pixels is None:
             raise ImageError(f"{path}: is damaged ({_clause(source.geterror)})")

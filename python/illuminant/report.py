@@ -25,7 +25,10 @@ from pydantic import ValidationError
 from illuminant.errors import DataError, Problem, SceneError, suggestion
 from illuminant.schema import Table
 
-__all__ = ["Path", "Report", "found", "keys_of", "read_table"]
+__all__ = ["MOST_PROBLEMS", "Path", "Report", "found", "keys_of", "read_table"]
+
+MOST_PROBLEMS = 200
+"""Mistakes after which no more are looked for."""
 
 Path = tuple[str | int, ...]
 """Keys and indices that lead to a value of the file."""
@@ -48,7 +51,11 @@ class Report:
         self.problems: list[Problem] = []
 
     def add(self, path: Path, message: str, hint: str = "", kind: str = "value") -> None:
-        """Add a mistake at a key path; a path that is not in the file gets the line of what holds it."""
+        """Add a mistake at a key path; a path that is not in the file gets the line of what holds it.
+
+        Raises:
+            SceneError: there are `MOST_PROBLEMS`, which is more than anybody reads.
+        """
         depth = len(path)
         while depth and path[:depth] not in self.lines:
             depth -= 1
@@ -65,6 +72,8 @@ class Report:
         problem = Problem(self.file, line, table, key, message, hint, kind)
         if problem not in self.problems:
             self.problems.append(problem)
+        if len(self.problems) >= MOST_PROBLEMS:
+            self.raise_if_any()
 
     def add_data_error(self, path: Path, error: DataError, kind: str = "data") -> None:
         """Add the mistake of a data file or of points, with the place in that file where there is one."""

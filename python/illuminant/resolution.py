@@ -640,7 +640,8 @@ class Resolver:
                 raise DataError(f"must be the name of a NumPy file, found {found(given)}") from None
         if cells.ndim != 3 or cells.size == 0 or cells.dtype.kind not in "fiu":
             raise DataError(f"must hold numbers along three axes, x, y and z; found shape {cells.shape}")
-        cells = np.asarray(cells, dtype=np.float32)
+        with np.errstate(over="ignore"):  # what is too large is refused with what is infinite
+            cells = np.asarray(cells, dtype=np.float32)
         if not (np.isfinite(cells).all() and (cells >= 0).all() and cells.max() > 0):
             raise DataError("must be finite and not negative, and somewhere above 0")
         nx, ny, nz = cells.shape

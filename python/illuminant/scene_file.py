@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from illuminant import sources
+from illuminant import machine, sources
 from illuminant.core import core
 from illuminant.errors import Problem, SceneError
 from illuminant.objects import ObjectResolver, Placed
@@ -24,12 +24,15 @@ from illuminant.report import Report, found, read_table
 from illuminant.resolution import Resolver, indexed
 from illuminant.scene import Scene
 from illuminant.schema import Camera, Render, SceneFile
-from illuminant.sources import SourceError
+from illuminant.sources import WORTH_A_LOOK, SourceError
 
 if TYPE_CHECKING:
     import numpy as np
 
 __all__ = ["MAX_BYTES", "check", "load", "parse", "plain", "resolve", "schema_text", "shines", "still"]
+
+BYTES_A_LETTER = 130
+"""Memory that a letter of a scene file may take while it is parsed, with the line of every value."""
 
 MAX_BYTES = 100_000_000
 """The largest scene file."""
@@ -79,6 +82,8 @@ def parse(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Report]:
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         raise SceneError([Problem(file, line, "", "", "is not UTF-8 text", kind="toml")]) from None
+    if BYTES_A_LETTER * len(text) > WORTH_A_LOOK:
+        machine.check_file(path, BYTES_A_LETTER * len(text))
     try:
         data, lines = core().parse_toml(text)
     except core().TomlError as error:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from illuminant.settings import SCANLINE
+
 if TYPE_CHECKING:
     from illuminant.image import Image, Saved
     from illuminant.job import Job
@@ -76,7 +78,10 @@ def facts(job: Job, image: Image, saved: list[Saved], again: str) -> dict[str, A
         "peak_memory": int(found["peak_memory"]),
         "spectral_error": job.spectral_error(),
         "dropped": int(found["dropped"]),
-        "dropped_samples": [{**item, "again": _follow(again, item)} for item in found["dropped_samples"]],
+        "dropped_samples": [
+            {**item, "again": None if job.settings.technique in SCANLINE else _follow(again, item)}
+            for item in found["dropped_samples"]
+        ],
         "unit": image.unit,
         "exposure": shown.exposure if shown else None,
         "outside_gamut": shown.outside if shown else None,
@@ -117,10 +122,8 @@ def say_dropped(facts: dict[str, Any]) -> None:
     for item in dropped[:SHOWN]:
         x, y = item["pixel"]
         where = f"object {item['object']}, material {item['material']}" if item["object"] else "no object"
-        warning(
-            f"Sample {item['sample']} of pixel {x},{y} is no radiance and was dropped ({where}); "
-            f"to follow it again: {item['again']}"
-        )
+        follow = f"; to follow it again: {item['again']}" if item["again"] else ""
+        warning(f"Sample {item['sample']} of pixel {x},{y} is no radiance and was dropped ({where}){follow}")
     if facts["dropped"] > SHOWN:
         warning(f"{facts['dropped']:,} samples were dropped in all; --json names the first {len(dropped)}.")
 

@@ -22,10 +22,12 @@ def sentence(kind: str, text: str) -> None:
     """Write `kind: text` to stderr, the kind coloured on a terminal; every line of a longer text bears the kind."""
     import os
 
+    from illuminant.errors import printable
+
     color = sys.stderr.isatty() and "NO_COLOR" not in os.environ
     head = f"\x1b[1;{_COLORS.get(kind, '0')}m{kind}:\x1b[0m" if color else f"{kind}:"
-    for line in text.splitlines() or [""]:
-        print(f"{head} {line}", file=sys.stderr)
+    for line in text.split("\n"):
+        print(f"{head} {printable(line)}", file=sys.stderr)
 
 
 def warning(text: str) -> None:
