@@ -226,7 +226,7 @@ MISTAKES = {
     "a rate that is none": (STILL + 'frames_per_second = "fast"\n', "type", "animation", "frames_per_second", LINE,
                             "30000/1001"),
     "a rate of nothing": (STILL + "frames_per_second = 0\n", "range", "animation", "frames_per_second", LINE,
-                          "must be above 0"),
+                          "must be at least 0.001"),
     "fields by another word": (STILL + 'fields = "upper-first"\n', "choice", "animation", "fields", LINE,
                                'must be "none", "odd-first" or "even-first"'),
     "keys that are no table": (STILL + "keys = 3\n", "type", "animation", "keys", LINE, "must be a table"),

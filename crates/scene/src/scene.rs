@@ -231,7 +231,10 @@ fn index_of(
     let curve = at_least(curves, place, what, index, least, range)?;
     let highest = curve.extent(range).1;
     if highest > MOST_INDEX {
-        return Err(error(place, format!("{what} must not exceed {MOST_INDEX}, and it reaches {highest:.4e}")));
+        return Err(error(
+            place,
+            format!("{what} must not exceed {MOST_INDEX}, and it reaches {highest:.4e}"),
+        ));
     }
     Ok(curve)
 }
