@@ -14,6 +14,7 @@ import struct
 import subprocess
 import sys
 import time
+import warnings
 import zipfile
 from pathlib import Path
 
@@ -204,13 +205,17 @@ def test_a_program_may_name_any_file_and_need_not(tmp_path):
         ({"reflectance": '0.5\n[animation]\nframes = [0, 1]\nframes_per_second = 5e-324'}, "at least 0.001"),
         ({"reflectance": '0.5\n[camera.x]\n' + "".join(f"key{i} = 1\n" for i in range(1000))}, "is not a key"),
         ({"reflectance": '0.5\n[materials."\\u001b]0;PWNED\\u0007"]'}, r"\\x1b\]0;PWNED\\x07"),
+        ({"shape": "sphere = {}\nscale = [1e-162, 1e-162, 1e-162]"}, "flattens the object"),
+        ({"reflectance": '0.5\n[medium]\nscattering = 1.0\nbox = { min = [0, 0, 0], max = [1, 1, 1] }\n'
+                         "density = [[[1e300, 1.0], [1.0, 1.0]]]"}, "must be"),
     ],
-    ids=["chain", "motion", "rate", "many", "escape"],
+    ids=["chain", "motion", "rate", "many", "escape", "scale", "density"],
 )  # fmt: skip
 def test_what_ended_in_no_sentence_once(tmp_path, parts, sentence):
     path = scene(tmp_path / "a.toml", **parts)
     begin = time.process_time()
-    with pytest.raises(SceneError, match=sentence) as caught:
+    with warnings.catch_warnings(), pytest.raises(SceneError, match=sentence) as caught:
+        warnings.simplefilter("error", RuntimeWarning)
         illuminant.load(path)
     assert time.process_time() - begin < 5.0
     assert len(caught.value.problems) <= 200

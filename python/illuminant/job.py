@@ -390,7 +390,7 @@ class Job:
         def report(part: float) -> bool:
             nonlocal last, pausing
             last = part
-            if self.interrupted:
+            if self.interrupted or self.stopped:
                 return False
             try:
                 samples = self.done + (end - self.done) * min(1.0, before + part)

@@ -109,8 +109,10 @@ def transform(
         result[:, :3] = linear
         if translate is not None:
             result[:, 3] = np.array(translate, float) * unit_m
-    size = np.linalg.norm(result[:, :3], axis=0)
-    if not abs(np.linalg.det(result[:, :3])) > 1e-12 * float(np.prod(size)) or not (size > 0).all():
+    with np.errstate(all="ignore"):  # numbers at the end of all numbers are refused too
+        size = np.linalg.norm(result[:, :3], axis=0)
+        volume, most = abs(np.linalg.det(result[:, :3])), float(np.prod(size))
+    if not volume > 1e-12 * most or not (size > 0).all():
         raise DataError("the transform flattens the object to nothing")
     return result + 0.0  # no negative zeros: equal scenes have equal bytes
 

@@ -635,7 +635,8 @@ class Resolver:
                 raise DataError(f"is no NumPy file of numbers ({error})", str(file)) from error
         else:
             try:
-                cells = np.asarray(given, dtype=np.float32)
+                with np.errstate(over="ignore"):
+                    cells = np.asarray(given, dtype=np.float32)
             except (TypeError, ValueError):
                 raise DataError(f"must be the name of a NumPy file, found {found(given)}") from None
         if cells.ndim != 3 or cells.size == 0 or cells.dtype.kind not in "fiu":
