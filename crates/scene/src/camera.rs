@@ -143,7 +143,7 @@ impl Camera {
             return Err(CameraError::NotFinite);
         }
         // Narrower, and single precision has too few directions for its rays.
-        if !(field_of_view_deg >= 1e-3 && field_of_view_deg < 180.0) {
+        if !(1e-3..180.0).contains(&field_of_view_deg) {
             return Err(CameraError::FieldOfView(field_of_view_deg));
         }
         let forward = (target - eye).try_normalize().ok_or(CameraError::NoDirection)?;
