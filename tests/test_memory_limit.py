@@ -84,6 +84,16 @@ print(held + sum(found[0].values()), machine.peak_memory())
         ),
         ("bunny", {"samples": 1, "size": [600, 600], "layers": "depth,normal,albedo"}),
         ("tiles", {"samples": 1, "size": [600, 600]}),
+        (
+            "cornell",
+            {
+                "samples": 1,
+                "size": [600, 600],
+                "technique": "gouraud",
+                "illumination": "phong",
+                "subdivide": 1.0,
+            },
+        ),
     ],
 )
 def test_the_estimate_is_not_below_what_is_measured(name, options, tmp_path):

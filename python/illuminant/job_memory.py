@@ -7,6 +7,7 @@
 | images of surfaces and surroundings | 50 a pixel | 48 while tables are made, 18 and 30 after it |
 | form factors | 18.5 each: 8, and as they are put together; 25 with checkpoints, which hold copies | 18 to 19; 25 |
 | directions of `specular-radiosity` | 12 a lane and cell | 11 |
+| subdivided polygons | 1200 a pixel over `subdivide` | 870 to 950 |
 | shadow maps | `film_memory.shadow_map_memory`, at most | fewer where a lamp sees part of the scene |
 
 How many form factors there will be is a guess: 1.3 sides for each element (2 where sheets are lit from both sides),
@@ -33,7 +34,7 @@ from typing import TYPE_CHECKING
 
 from illuminant import machine
 from illuminant.film_memory import lanes, memory_needed, shadow_map_memory
-from illuminant.settings import SOLVED, Settings
+from illuminant.settings import SCANLINE, SOLVED, Settings
 
 if TYPE_CHECKING:
     from illuminant.scene import Scene
@@ -45,6 +46,9 @@ LIBRARIES = 50_000_000
 
 BYTES_A_TRIANGLE, BYTES_A_PIXEL, BYTES_A_FACTOR, BYTES_A_KEPT_FACTOR = 100, 50, 18.5, 25.0
 SIDES_AN_ELEMENT, FACTORS_A_RAY = 1.3, 0.75
+BYTES_A_SUBDIVISION = 1200
+"""Of the triangles that stand for an area of `subdivide` pixels: two or more, with their vertices and edges."""
+
 COPIES = 2
 """Of the bytes of a solution while it is read: its arrays, and those of the core."""
 ELEMENTS_MORE = 1.2
@@ -86,6 +90,9 @@ def parts(
         "geometry": 0 if built else geometry,
         "textures and environments": 0 if scene._core is not None else BYTES_A_PIXEL * images,
         "shadow maps": shadow_map_memory(settings, scene.description),
+        "subdivided polygons": int(BYTES_A_SUBDIVISION * pixels / settings.subdivide)
+        if settings.subdivide and settings.technique in SCANLINE
+        else 0,
     }
     if settings.technique in SOLVED or settings.technique == "specular-radiosity":
         solved = solution is not None
