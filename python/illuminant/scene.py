@@ -363,6 +363,8 @@ class Scene:
     def from_bytes(cls, data: bytes) -> Scene:
         """The scene that `to_bytes` wrote.
 
+        `replace` no longer knows the names of spectra that came from files.
+
         Raises:
             DataError: the bytes are not such a scene.
         """
@@ -376,12 +378,20 @@ class Scene:
             if header["format"] != FORMAT:
                 raise KeyError
             scene_arrays.check(arrays)
+            # What they were read from may lie anywhere, and is none of a reader's business.
+            frame = header["frame"]
+            if "spectra" in frame:
+                frame["spectra"] = {
+                    key: one
+                    for key, one in frame["spectra"].items()
+                    if not (isinstance(one, dict) and "file" in one)
+                }
             return cls(
                 header["description"],
                 arrays,
                 title=header["title"],
                 render_defaults=header["render_defaults"],
-                frame=header["frame"],
+                frame=frame,
                 path=header["path"],
                 warnings=header["warnings"],
             )

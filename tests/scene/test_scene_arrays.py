@@ -58,3 +58,17 @@ def test_indices_beyond_the_vertices_are_refused_by_the_core(cornell: Scene) -> 
     arrays["shape:0:indices"] = arrays["shape:0:indices"] + np.uint32(1000)
     with pytest.raises(SceneError, match="names a corner beyond"):
         Scene.from_bytes(Scene(cornell.description, arrays, frame=cornell.frame).to_bytes()).core()
+
+
+def test_a_written_scene_names_no_files(cornell: Scene, tmp_path: Path) -> None:
+    (tmp_path / "secret.csv").write_text("400 0.5\n700 0.5\n")
+    frame = {
+        **cornell.frame,
+        "spectra": {"a": {"file": str(tmp_path / "secret.csv")}, "b": {"constant": 0.5}},
+    }
+    written = Scene(cornell.description, cornell.arrays, frame=frame).to_bytes()
+    read = Scene.from_bytes(written)
+    name = read.description["materials"][0]["name"]
+    assert read.replace(materials={name: {"kind": "diffuse", "reflectance": "b"}})
+    with pytest.raises(SceneError, match="its own"):
+        read.replace(materials={name: {"kind": "diffuse", "reflectance": "its own"}})
