@@ -44,7 +44,7 @@ NAME_OF_USE = {
 MOST_NAMES = 100
 """How many names may lead from one to the next before there is a spectrum."""
 
-MOST_INDEX = 100.0
+MOST_INDEX = 100_000.0
 """The largest index of refraction or extinction coefficient in the scene's range; the core has the same."""
 
 WARN_DELTA_E = 0.5
@@ -371,7 +371,7 @@ class Curves:
         elif use == "emission" and not max(values) > 0.0:
             wrong = "a spectrum of light is not zero everywhere"
         elif use in ("n", "k") and (most := self._most(spectrum)) > MOST_INDEX:
-            wrong = f"{use} is at most {MOST_INDEX:g} in visible light, found {most:g}"
+            wrong = f"{use} is at most {MOST_INDEX:,.0f} in visible light, found {most:g}"
         if wrong:
             percent = use == "reflectance" and 1.5 < max(values) <= 100.0 and min(values) >= 0.0
             self.report.add(

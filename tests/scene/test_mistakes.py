@@ -161,8 +161,8 @@ MISTAKES = [
     ('metal = "gold"', 'metal = "gold"\nn = 0.2', "exactly-one", "materials.metal", "n", "given twice"),
     ('medium = "BK7"', 'medium = "gold"', "spectrum-use", "materials.glass", "medium", "is a metal"),
     ('medium = "BK7"', "n = 0", "spectrum-value", "materials.glass", "n", "n must be above 0"),
-    ('medium = "BK7"', "n = 1e308", "spectrum-value", "materials.glass", "n", "n is at most 100 in visible light"),
-    ('metal = "gold"', "n = 0.2\nk = 101", "spectrum-value", "materials.metal", "k", "k is at most 100"),
+    ('medium = "BK7"', "n = 1e308", "spectrum-value", "materials.glass", "n", "n is at most 100,000 in visible light"),
+    ('metal = "gold"', "n = 0.2\nk = 1e6", "spectrum-value", "materials.metal", "k", "k is at most 100,000"),
     # --- quantities ---
     ("flux_lm = 800", "intensity_cd = 800", "quantity", "materials.bulb", "intensity_cd",
      "does not fit an emitter"),

@@ -216,8 +216,8 @@ fn at_least(
     Ok(curve.clone())
 }
 
-/// Above every refractive index and absorption index of a material in the light that eyes see.
-const MOST_INDEX: f64 = 100.0;
+/// Above every index of a material, and of the perfect mirrors that tests make of a large one.
+const MOST_INDEX: f64 = 1e5;
 
 /// A curve of a refractive index, or of an absorption index.
 fn index_of(
