@@ -59,7 +59,8 @@ def read(stream: IO[bytes], name: str = "") -> dict[str, np.ndarray]:
                 with archive.open(member) as part:
                     found[member.filename.removesuffix(".npy")] = array(part, member.file_size)
             return found
-    except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError, OverflowError) as error:
+    # `zipfile` raises RuntimeError, and its kind NotImplementedError, for members that it cannot read.
+    except (zipfile.BadZipFile, EOFError, RuntimeError, OverflowError) as error:
         raise ValueError(str(error) or "is damaged") from error
 
 
@@ -96,9 +97,8 @@ def array(
         raise ValueError("has a damaged header") from error
     if kind.hasobject:
         raise ValueError("holds Python objects")
-    if any(
-        isinstance(side, bool) for side in shape
-    ):  # which NumPy takes for a number here, and for none later
+    # NumPy takes a truth for a number here, and for none later.
+    if any(isinstance(side, bool) for side in shape):
         raise ValueError("has a damaged header")
     needed = math.prod(shape) * kind.itemsize
     if any(side < 0 for side in shape) or needed > size:

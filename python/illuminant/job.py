@@ -204,7 +204,10 @@ class Job:
         solved = 0 if solution is not None else len(checkpoint.solution) if checkpoint is not None else 0
         known = solution is not None or solved > 0
         light = solved if known else None
-        job_memory.check(self.settings, self.scene, width * height, lamps, light, checkpoints=checkpoints)
+        needed = job_memory.parts(
+            self.settings, self.scene, width * height, lamps, light, checkpoints=checkpoints
+        )
+        job_memory.check(needed)
         embree()
         self._spent, self._kept_solution = 0.0, b""
         self._identity: dict[str, Any] = {}

@@ -122,21 +122,15 @@ def _radiosity(settings: Settings, triangles: int, checkpoints: bool) -> int:
     return int(of_a_factor * sides * each + dense + 40 * values * sides)
 
 
-def check(
-    settings: Settings,
-    scene: Scene,
-    pixels: int,
-    lamps: int,
-    solution: int | None = None,
-    *,
-    checkpoints: bool = False,
-) -> None:
-    """Refuse what does not fit into the memory that may be used (`machine.limited_to`); arguments as `parts`.
+def check(found: dict[str, int]) -> None:
+    """Refuse what does not fit into the memory that may be used (`machine.limited_to`).
+
+    Args:
+        found: what `parts` gives.
 
     Raises:
         MachineError: one sentence with both amounts and the largest parts.
     """
-    found = parts(settings, scene, pixels, lamps, solution, checkpoints=checkpoints)
     largest = sorted(found, key=lambda name: -found[name])[:3]
     told = ", ".join(f"{name} {machine.size(found[name])}" for name in largest)
     machine.refuse(f"This render ({told})", sum(found.values()))

@@ -222,15 +222,18 @@ unsafe impl Send for Device {}
 // SAFETY: as above.
 unsafe impl Sync for Device {}
 
+/// The most threads that anybody may ask for: as many are started as are asked for.
+pub const MOST_THREADS: usize = 4096;
+
 /// The code that Embree takes. Left to itself it takes the newest instruction set there is, and another width of vectors is
 /// another tree with other roundings; so it is held to the one that the core itself is built for.
 const INSTRUCTION_SET: &str = if cfg!(target_arch = "x86_64") { ",isa=avx2" } else { "" };
 
 impl Device {
-    /// A device that builds with so many threads, 4096 at most; 0 is one for each core.
+    /// A device that builds with so many threads, [`MOST_THREADS`] at most; 0 is one for each core.
     pub fn new(threads: usize) -> Result<Self, EmbreeError> {
         let api = api()?;
-        let threads = threads.min(4096); // Embree starts as many as it is told
+        let threads = threads.min(MOST_THREADS);
         let config = CString::new(format!("threads={threads}{INSTRUCTION_SET}")).unwrap_or_default();
         // SAFETY: the string lives through the call.
         let handle = unsafe { (api.new_device)(config.as_ptr()) };

@@ -219,26 +219,6 @@ fn at_least(
 /// Above every index of a material, and of the perfect mirrors that tests make of a large one.
 const MOST_INDEX: f64 = 1e5;
 
-/// A curve of a refractive index, or of an absorption index.
-fn index_of(
-    curves: &[Curve],
-    place: &str,
-    what: &str,
-    index: usize,
-    least: f64,
-    range: SpectralRange,
-) -> Result<Curve, SceneError> {
-    let curve = at_least(curves, place, what, index, least, range)?;
-    let highest = curve.extent(range).1;
-    if highest > MOST_INDEX {
-        return Err(error(
-            place,
-            format!("{what} must not exceed {MOST_INDEX}, and it reaches {highest:.4e}"),
-        ));
-    }
-    Ok(curve)
-}
-
 /// A curve from 0 to 1.
 pub(crate) fn fraction(
     curves: &[Curve],
@@ -280,7 +260,16 @@ fn shares(
 fn material(data: &MaterialData, curves: &[Curve], range: SpectralRange) -> Result<Material, SceneError> {
     let place = format!("materials.{}", data.name);
     let at_least = |what: &str, index: usize, least: f64| at_least(curves, &place, what, index, least, range);
-    let index_of = |what: &str, index: usize, least: f64| index_of(curves, &place, what, index, least, range);
+    let index_of = |what: &str, index: usize, least: f64| {
+        let curve = at_least(what, index, least)?;
+        match curve.extent(range).1 {
+            highest if highest > MOST_INDEX => {
+                let problem = format!("{what} must not exceed {MOST_INDEX}, and it reaches {highest:.4e}");
+                Err(error(&place, problem))
+            }
+            _ => Ok(curve),
+        }
+    };
     let fraction = |what: &str, index: usize| fraction(curves, &place, what, index, range);
     let finish = |finish: &FinishData| {
         if finish.slope.iter().any(|m| !(0.0..=1.0).contains(m)) {

@@ -16,6 +16,7 @@ use illuminant_illumination::Illumination;
 use illuminant_radiosity::Cancel;
 use illuminant_sampling::{Basis, SamplingError, SpectralError};
 use illuminant_scene::Scene;
+use illuminant_scene::embree::MOST_THREADS;
 use illuminant_spectrum::{Curve, Observer};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -269,12 +270,9 @@ impl Render {
         if scene.lamps.is_empty() {
             return Err(RenderError::NoLight);
         }
-        if settings.threads > Settings::MOST_THREADS {
-            return Err(RenderError::Setting(format!(
-                "threads must be 0 to {}, not {}",
-                Settings::MOST_THREADS,
-                settings.threads
-            )));
+        if settings.threads > MOST_THREADS {
+            let given = settings.threads;
+            return Err(RenderError::Setting(format!("threads must be 0 to {MOST_THREADS}, not {given}")));
         }
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads)

@@ -205,7 +205,7 @@ pub struct Settings {
     pub depth: Option<u32>,
     /// Another seed is another noise.
     pub seed: u64,
-    /// 0 is one for each core; at most [`Settings::MOST_THREADS`].
+    /// 0 is one for each core; at most [`illuminant_scene::embree::MOST_THREADS`].
     pub threads: usize,
     /// The reconstruction filter.
     pub filter: Filter,
@@ -247,11 +247,6 @@ pub struct Settings {
     pub subdivide: Option<f64>,
     /// What radiosity is told.
     pub radiosity: RadiositySettings,
-}
-
-impl Settings {
-    /// The most threads that can be asked for.
-    pub const MOST_THREADS: usize = 4096;
 }
 
 impl Default for Settings {
