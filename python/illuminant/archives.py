@@ -59,7 +59,7 @@ def read(stream: IO[bytes], name: str = "") -> dict[str, np.ndarray]:
                 with archive.open(member) as part:
                     found[member.filename.removesuffix(".npy")] = array(part, member.file_size)
             return found
-    # `zipfile` raises RuntimeError, and its kind NotImplementedError, for members that it cannot read.
+    # `zipfile` raises RuntimeError, or a kind of it, for members that it cannot read.
     except (zipfile.BadZipFile, EOFError, RuntimeError, OverflowError) as error:
         raise ValueError(str(error) or "is damaged") from error
 
