@@ -59,6 +59,8 @@ __all__ = ["Material", "Resolver", "in_place", "indexed"]
 
 MOST_BYTES_OF_DENSITY = 4_000_000_000
 """The largest file of the density of a medium."""
+MOST_CELLS_ALONG = 10_000
+"""The most cells of a density along one axis: a ray passes as many."""
 
 BYTES_A_CELL = 32
 """Memory that a cell of it takes while it is read, at 4 bytes a cell in the file."""
@@ -641,6 +643,10 @@ class Resolver:
                 raise DataError(f"must be the name of a NumPy file, found {found(given)}") from None
         if cells.ndim != 3 or cells.size == 0 or cells.dtype.kind not in "fiu":
             raise DataError(f"must hold numbers along three axes, x, y and z; found shape {cells.shape}")
+        if max(cells.shape) > MOST_CELLS_ALONG:
+            raise DataError(
+                f"must have at most {MOST_CELLS_ALONG:,} cells along an axis, found shape {cells.shape}"
+            )
         with np.errstate(over="ignore"):  # what is too large is refused with what is infinite
             cells = np.asarray(cells, dtype=np.float32)
         if not (np.isfinite(cells).all() and (cells >= 0).all() and cells.max() > 0):

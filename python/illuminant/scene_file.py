@@ -189,10 +189,9 @@ def still(
     head, _ = read_table(SceneFile, top | {"camera": _example_camera()}, (), report)
     assert head is not None
     range_nm = head.range_nm
-    if not range_nm[0] < range_nm[1]:
-        report.add(
-            ("range_nm",), f"must be the first and a larger last wavelength, found {range_nm}", kind="range"
-        )
+    if not (range_nm[0] < range_nm[1] and all(nm.is_integer() for nm in range_nm)):
+        message = f"must be the first and a larger last wavelength in whole nm, found {range_nm}"
+        report.add(("range_nm",), message, kind="range")
         range_nm = [380.0, 780.0]
     frame: dict[str, Any] = {
         "length_unit": head.length_unit,

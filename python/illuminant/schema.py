@@ -663,7 +663,7 @@ class SceneFile(Table):
     length_unit: Literal["m", "cm", "mm", "in", "ft"] = key("unit of all lengths in the file", '"mm"', "m")
     up: Literal["y", "z"] = key("axis of the world that is up", '"z"', "y")
     range_nm: Range = key(
-        "first and last wavelength that light is carried at, in nm", "[360.0, 830.0]", [380.0, 780.0]
+        "first and last wavelength that light is carried at, in whole nm", "[360.0, 830.0]", [380.0, 780.0]
     )
     camera: Camera = key("where the image is taken from", "")
     render: Render = key("defaults of the options of `illuminant render`", "", Render())

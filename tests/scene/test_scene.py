@@ -120,6 +120,12 @@ def test_equal_scenes_have_equal_hashes_and_any_change_another():
     assert len({base, *hashes}) == len(others) + 1
 
 
+@pytest.mark.parametrize("range_nm", [(780, 380), (380, 380), (380.5, 780)])
+def test_a_range_is_whole_nanometres_that_rise(range_nm):
+    with pytest.raises(SceneError, match=r"range_nm.*larger last wavelength in whole nm"):
+        small(range_nm=range_nm)
+
+
 def small_materials(reflectance):
     return {
         "grey": {"kind": "diffuse", "reflectance": reflectance},

@@ -75,6 +75,17 @@ def test_dropped_samples_are_reported_with_their_place(image):
     assert len({(*report["pixel"], report["sample"]) for report in reports}) == len(reports)
 
 
+@pytest.mark.parametrize("technique", ["constant", "gouraud", "phong"])
+def test_scanline_techniques_name_what_is_seen_where_a_sample_was_dropped(technique):
+    options = OPTIONS | {"technique": technique, "illumination": "bouknight"}
+    statistics = illuminant.render(blinding(3e38), samples=SAMPLES, **options).statistics
+    assert statistics["dropped"] == 8 * 4 * SAMPLES
+    assert statistics["dropped_samples"]
+    for report in statistics["dropped_samples"]:
+        assert (report["object"], report["material"]) == ("monster", "too bright")
+        assert report["pixel"][0] < 4
+
+
 def test_a_dropped_sample_can_be_followed_again(image):
     """The very path: it meets the lamp, and brings what was dropped."""
     report = image.statistics["dropped_samples"][0]

@@ -60,7 +60,7 @@ impl PyRowFinder {
     fn new(py: Python<'_>, scene: &PyScene, settings: &str) -> PyResult<Self> {
         let (settings, scene) = (self::settings(settings)?, Arc::clone(&scene.0));
         py.detach(|| {
-            let basis = basis(&scene, &settings).map_err(wrong)?;
+            let basis = basis(&scene, &settings, &Cancel::default()).map_err(wrong)?;
             RowFinder::new(scene, &settings, &*basis).map(Self).map_err(wrong)
         })
     }
@@ -176,7 +176,7 @@ impl PySolution {
         };
         let cancel = flag(cancel);
         let found = interruptible(py, &cancel, || {
-            let basis = basis(&scene, &settings).map_err(|e| e.to_string())?;
+            let basis = basis(&scene, &settings, &cancel).map_err(|e| e.to_string())?;
             RadiositySolution::new_unless_cancelled(&scene, &settings, basis, given, &cancel)
         })?;
         unless(&cancel, found).map(Self::from)
@@ -220,7 +220,7 @@ impl PySolution {
         };
         let (scene, fitted_to) = (Arc::clone(&scene.0), Arc::clone(&fitted_to.0));
         py.detach(|| {
-            let basis = basis(&fitted_to, &settings).map_err(wrong)?;
+            let basis = basis(&fitted_to, &settings, &Cancel::default()).map_err(wrong)?;
             solved(RadiositySolution::restored(&scene, &settings, basis, parts))
         })
     }

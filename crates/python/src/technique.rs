@@ -176,7 +176,8 @@ impl PyRender {
 
     /// The error of the spectral sampling in this scene: ΔE00 against 1 nm.
     fn spectral_error<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let found = py.detach(|| self.0.spectral_error());
+        let cancel = Cancel::default();
+        let found = interruptible(py, &cancel, || self.0.spectral_error(&cancel))?;
         let scene = self.0.scene();
         let dict = PyDict::new(py);
         dict.set_item("mean", found.mean)?;

@@ -3,6 +3,7 @@
 mod camera;
 mod coefficients;
 mod cones;
+mod density;
 pub mod description;
 pub mod embree;
 mod emission;
@@ -27,13 +28,14 @@ mod ties;
 
 pub use camera::{Camera, CameraError, Lens, Seen};
 pub use cones::{Cone, ConeIndex, Layer, Leaves};
+pub use density::{Column, Density};
 pub use emission::{Emitted, Targets};
 pub use environment::EnvironmentImage;
 pub use geometry::{Geometry, GeometryError};
 pub use lamp::{Lamp, LampForm, LampSample};
 pub use lamp_chooser::{LampChooser, chooser};
 pub use light_tree::{Extent, LightTree};
-pub use medium::{Density, Medium, Phase};
+pub use medium::{Medium, Phase};
 pub use motion::Motion;
 pub use pattern::{Pattern, PatternKind, noise};
 pub use photometry::{Quantity, Source, absolute_spectrum};

@@ -1,5 +1,6 @@
 //! A participating medium: air that absorbs and scatters (Blinn 1982, Max 1986, Rushmeier and Torrance 1987; book 2.1.3).
 
+use crate::density::{Column, Density};
 use glam::Vec3;
 use illuminant_spectrum::Curve;
 use std::f32::consts::{PI, TAU};
@@ -56,60 +57,6 @@ impl Phase {
     }
 }
 
-/// A density over a box: relative, linear between the centres of cells, that of the border beyond them.
-#[derive(Clone, Debug)]
-pub struct Density {
-    size: [usize; 3],
-    /// x fastest, then y, then z.
-    values: Vec<f32>,
-    most: f32,
-}
-
-impl Density {
-    /// A density from the values of its cells, x fastest; `None` when their number does not fit, or one is negative or not finite, or none is
-    /// above 0.
-    #[must_use]
-    pub fn new(size: [usize; 3], values: Vec<f32>) -> Option<Self> {
-        let most = values.iter().copied().fold(0.0f32, f32::max);
-        let sound = values.iter().all(|v| *v >= 0.0 && v.is_finite());
-        let fits = size.iter().try_fold(1usize, |n, s| n.checked_mul(*s)) == Some(values.len());
-        (sound && fits && most > 0.0).then_some(Self { size, values, most })
-    }
-
-    /// The value at a place in the unit cube.
-    #[must_use]
-    pub fn at(&self, place: Vec3) -> f32 {
-        let mut low = [0usize; 3];
-        let mut part = [0.0f32; 3];
-        for axis in 0..3 {
-            let last = self.size[axis] - 1;
-            let x = (place[axis] * self.size[axis] as f32 - 0.5).clamp(0.0, last as f32);
-            low[axis] = (x as usize).min(last);
-            part[axis] = x - low[axis] as f32;
-        }
-        let mut sum = 0.0;
-        for corner in 0..8usize {
-            let (mut weight, mut index, mut stride) = (1.0, 0, 1);
-            for axis in 0..3 {
-                let next = corner >> axis & 1;
-                weight *= if next == 1 { part[axis] } else { 1.0 - part[axis] };
-                index += (low[axis] + next).min(self.size[axis] - 1) * stride;
-                stride *= self.size[axis];
-            }
-            if weight > 0.0 {
-                sum += weight * self.values[index];
-            }
-        }
-        sum
-    }
-
-    /// The largest value.
-    #[must_use]
-    pub fn most(&self) -> f32 {
-        self.most
-    }
-}
-
 /// A participating medium, in a box or everywhere; bodies of glass keep it out.
 #[derive(Clone, Debug)]
 pub struct Medium {
@@ -143,6 +90,30 @@ impl Medium {
     pub fn density_at(&self, position: Vec3) -> f32 {
         match (&self.density, self.bounds) {
             (Some(density), Some([low, high])) => density.at((position - low) / (high - low)),
+            _ => 1.0,
+        }
+    }
+
+    /// The density that a ray passes between two distances within the medium, or until that is `enough`.
+    #[must_use]
+    pub fn column(&self, origin: Vec3, direction: Vec3, [near, far]: [f32; 2], enough: f32) -> Column {
+        if let (Some(density), Some([low, high])) = (&self.density, self.bounds) {
+            let size = high - low;
+            return density.column((origin - low) / size, direction / size, [near, far], enough);
+        }
+        let length = far - near;
+        if enough < length {
+            Column { amount: enough, reached: Some(near + enough) }
+        } else {
+            Column { amount: length, reached: None }
+        }
+    }
+
+    /// How many steps [`Self::column`] takes at most along a way within the medium.
+    #[must_use]
+    pub fn steps(&self, way: Vec3) -> f32 {
+        match (&self.density, self.bounds) {
+            (Some(density), Some([low, high])) => 1.0 + density.crossings(way / (high - low)),
             _ => 1.0,
         }
     }

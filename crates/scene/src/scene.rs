@@ -1,6 +1,7 @@
 //! A scene ready for rendering.
 
 use crate::coefficients::overrides;
+use crate::density::Density;
 use crate::description::{
     AtmosphereData, CurveData, Description, DistributionData, FinishData, LightData, MaterialData, PhaseData,
     ShapeData, Sides, SurfaceData, UpAxis,
@@ -8,7 +9,7 @@ use crate::description::{
 use crate::environment::EnvironmentImage;
 use crate::lamp::{Lamp, LampForm, spot_solid_angle};
 use crate::lamp_chooser::{LampChooser, chooser};
-use crate::medium::{Density, Medium, Phase};
+use crate::medium::{Medium, Phase};
 use crate::photometry::{Source, absolute_spectrum};
 use crate::skin::{Skin, Textures};
 use crate::sky::{Sky, Sun, SunPosition};

@@ -40,7 +40,7 @@ pub use radiosity::{
 pub use render::{Dropped, Progress, Render, RenderError, Share, Statistics};
 pub use sampler::Sampler;
 pub use scanline::edges;
-pub use scene_products::{basis, products, reflectances, spectral_error};
+pub use scene_products::{basis, reflectances, spectral_error};
 pub use sequence::Sequence;
 pub use settings::{
     Antialiasing, Infinite, Interpolation, Layer, LightCentres, Settings, Shading, Shadows, Technique,

@@ -2,21 +2,26 @@
 //!
 //! Distances are drawn by one of a few representative extinctions, the same along a path; its weight is over the mean of the chances that
 //! all of them would have given it (the balance heuristic; Wilkie et al. 2014), so it stays bounded where extinction has colour, and
-//! distances never depend on the lanes. Where the density varies, meetings are tried at the rate of the densest place, and each is a real
-//! one or none (Woodcock 1965; in lanes: Kutz et al. 2017); shadows multiply what tentative ones leave (ratio tracking; Novák et al. 2014).
+//! distances never depend on the lanes. Where the density varies, what a ray passes of it takes the place of distance: exactly, cell by
+//! cell. Where a ray would sooner meet nothing than pass all cells, meetings are tried instead at the rate of the densest place, and each
+//! is a real one or none (Woodcock 1965; in lanes: Kutz et al. 2017); shadows multiply what tentative ones leave (ratio tracking; Novák
+//! et al. 2014).
 
 use crate::sequence::Sequence;
 use glam::Vec3;
 use illuminant_sampling::{Basis, Lanes, Role};
-use illuminant_scene::{Medium, Phase};
+use illuminant_scene::{Column, Medium, Phase};
 use illuminant_spectrum::SpectralRange;
 use std::ops::Range;
 
 /// How many extinctions represent a spectrum.
 const REPRESENTATIVE: usize = 5;
 
-/// The most tentative meetings along one ray.
-const MOST: usize = 100_000;
+/// What a tentative meeting costs, in steps from cell to cell: it draws numbers, and in a shadow it makes noise.
+const TENTATIVE: f32 = 2.0;
+
+/// Nothing is left behind this optical depth: e to the minus this is 0 in single precision.
+const OPAQUE: f32 = 105.0;
 
 /// Which extinction a path draws by, and the chance that each would have given it, relative to their mean.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +60,8 @@ pub(crate) struct MediumLanes<const N: usize> {
     sampled: [[f32; 2]; REPRESENTATIVE],
     /// The largest extinction at the densest place.
     majorant: f32,
+    /// Behind this amount of matter nothing is left in any lane.
+    opaque: f32,
     medium: Medium,
 }
 
@@ -82,7 +89,10 @@ impl<const N: usize> MediumLanes<N> {
         });
         let most = range.wavelengths().map(|nm| medium.absorption.at(nm) + medium.scattering.at(nm));
         let majorant = most.fold(0.0, f64::max) as f32 * medium.densest();
-        Self { extinction: absorption + scattering, scattering, sampled, majorant, medium: medium.clone() }
+        let extinction = absorption + scattering;
+        let least = extinction.0.iter().copied().filter(|s| *s > 0.0).fold(f32::INFINITY, f32::min);
+        let opaque = OPAQUE / least;
+        Self { extinction, scattering, sampled, majorant, opaque, medium: medium.clone() }
     }
 
     pub fn phase(&self) -> Phase {
@@ -100,20 +110,35 @@ impl<const N: usize> MediumLanes<N> {
         let Some([near, far]) = self.medium.within(origin, direction, length) else {
             return Lanes::splat(1.0);
         };
-        if self.medium.density.is_none() {
-            return self.extinction.map(|s| if s > 0.0 { (-s * (far - near)).exp() } else { 1.0 });
+        if self.is_thin(direction, far - near) {
+            let mut left = Lanes::splat(1.0);
+            self.try_meetings(far - near, sequence, |passed, _| {
+                let density = self.medium.density_at(origin + direction * (near + passed)) / self.majorant;
+                left *= self.extinction.map(|s| (1.0 - s * density).max(0.0));
+                false
+            });
+            return left;
         }
-        let mut left = Lanes::splat(1.0);
-        let mut at = near;
-        for _ in 0..MOST {
-            at -= (1.0 - sequence.next4()[0]).ln() / self.majorant;
-            if at >= far || left.is_zero() {
-                break;
+        let column = self.medium.column(origin, direction, [near, far], self.opaque).amount;
+        self.extinction.map(|s| kept(s, column))
+    }
+
+    /// Whether a ray would try fewer meetings than it passes cells, by what both cost.
+    fn is_thin(&self, direction: Vec3, length: f32) -> bool {
+        self.medium.density.is_some()
+            && TENTATIVE * self.majorant * length < self.medium.steps(direction * length)
+    }
+
+    /// Tries meetings at the rate of the densest place, until one is `real` or the length is passed.
+    fn try_meetings(&self, length: f32, sequence: &mut Sequence, mut real: impl FnMut(f32, f32) -> bool) {
+        let mut passed = 0.0;
+        loop {
+            let [u_distance, u_kind, ..] = sequence.next4();
+            passed -= (1.0 - u_distance).ln() / self.majorant;
+            if passed >= length || real(passed, u_kind) {
+                return;
             }
-            let density = self.medium.density_at(origin + direction * at);
-            left *= self.extinction.map(|s| 1.0 - s * density / self.majorant);
         }
-        left
     }
 
     /// What a ray finds over a distance, which may be infinite.
@@ -130,31 +155,27 @@ impl<const N: usize> MediumLanes<N> {
         if !(self.majorant > 0.0) {
             return through;
         }
-        if self.medium.density.is_some() {
+        if self.is_thin(direction, far - near) {
             return self.track(origin, direction, [near, far], draws, sequence);
         }
-        let length = far - near;
         let [chosen, _] = self.sampled[draws.chosen];
         let [u, ..] = sequence.next4();
-        let distance = if chosen > 0.0 { -(1.0 - u).ln() / chosen } else { f32::INFINITY };
-        let kept = |s: f32, t: f32| if s > 0.0 { (-s * t).exp() } else { 1.0 };
-        if distance < length {
+        let depth = if chosen > 0.0 { -(1.0 - u).ln() / chosen } else { f32::INFINITY };
+        let Column { amount, reached } = self.medium.column(origin, direction, [near, far], depth);
+        if reached.is_some() {
+            // The density at the place is in the chances and in the weight alike.
             let before = *draws;
-            let mean = draws.times(|i| self.sampled[i][0] * kept(self.sampled[i][0], distance));
-            let weight = self.extinction.zip(self.scattering, |s, scattering| scattering * kept(s, distance));
-            let bright = before.scattered(|i| self.sampled[i][1] * kept(self.sampled[i][0], distance));
-            return Found {
-                weight: weight * mean.recip(),
-                brightness: bright / mean,
-                scattered: Some(near + distance),
-            };
+            let mean = draws.times(|i| self.sampled[i][0] * kept(self.sampled[i][0], amount));
+            let weight = self.extinction.zip(self.scattering, |s, scattering| scattering * kept(s, amount));
+            let bright = before.scattered(|i| self.sampled[i][1] * kept(self.sampled[i][0], amount));
+            return Found { weight: weight * mean.recip(), brightness: bright / mean, scattered: reached };
         }
-        let mean = draws.times(|i| kept(self.sampled[i][0], length));
-        let weight = self.extinction.map(|s| kept(s, length));
+        let mean = draws.times(|i| kept(self.sampled[i][0], amount));
+        let weight = self.extinction.map(|s| kept(s, amount));
         Found { weight: weight * mean.recip(), ..through }
     }
 
-    /// The same where the density varies: the extinction by which the path draws says which tentative meetings are real.
+    /// The same by tentative meetings: the extinction by which the path draws says which are real.
     fn track(
         &self,
         origin: Vec3,
@@ -163,24 +184,120 @@ impl<const N: usize> MediumLanes<N> {
         draws: &mut Draws,
         sequence: &mut Sequence,
     ) -> Found<N> {
-        let mut weight = Lanes::splat(1.0);
-        let mut at = near;
-        for _ in 0..MOST {
-            let [u_distance, u_kind, ..] = sequence.next4();
-            at -= (1.0 - u_distance).ln() / self.majorant;
-            if at >= far {
-                break;
-            }
+        let mut found = Found { weight: Lanes::splat(1.0), brightness: 1.0, scattered: None };
+        self.try_meetings(far - near, sequence, |passed, u_kind| {
+            let at = near + passed;
             let density = self.medium.density_at(origin + direction * at) / self.majorant;
             if u_kind < self.sampled[draws.chosen][0] * density {
                 let bright = draws.scattered(|i| self.sampled[i][1] * density);
                 let mean = draws.times(|i| self.sampled[i][0] * density);
-                weight *= self.scattering * (density / mean);
-                return Found { weight, brightness: bright / mean, scattered: Some(at) };
+                found.weight *= self.scattering * (density / mean);
+                found.brightness = bright / mean;
+                found.scattered = Some(at);
+                return true;
             }
             let mean = draws.times(|i| 1.0 - self.sampled[i][0] * density);
-            weight *= self.extinction.map(|s| (1.0 - s * density) / mean);
+            found.weight *= self.extinction.map(|s| (1.0 - s * density).max(0.0) / mean);
+            false
+        });
+        found
+    }
+}
+
+/// What an extinction leaves of light behind an amount of matter, which may be infinite.
+fn kept(extinction: f32, amount: f32) -> f32 {
+    if extinction > 0.0 { (-extinction * amount).exp() } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use illuminant_sampling::OneNanometre;
+    use illuminant_scene::Density;
+    use illuminant_spectrum::Curve;
+
+    const RANGE: SpectralRange = SpectralRange { min_nm: 400, max_nm: 403 };
+    /// 4,096 cells with a density between 0 and 1.
+    const SIZE: [usize; 3] = [16; 3];
+
+    /// A medium in the unit cube, its lanes, and two that are over.
+    fn lanes(absorption: f64, scattering: f64) -> (Medium, MediumLanes<6>) {
+        let values = (0..4096u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 8) as f32 / 16_777_216.0);
+        let medium = Medium {
+            absorption: Curve::constant(absorption),
+            scattering: Curve::constant(scattering),
+            phase: Phase::Rayleigh,
+            bounds: Some([Vec3::ZERO, Vec3::ONE]),
+            density: Density::new(SIZE, values.collect()),
+        };
+        let lanes = MediumLanes::new(&medium, &OneNanometre::new(RANGE), 0..4, RANGE);
+        (medium, lanes)
+    }
+
+    /// A ray right through the cube.
+    fn ray() -> (Vec3, Vec3, f32) {
+        let (from, to) = (Vec3::new(0.1, 0.2, 0.0), Vec3::new(0.7, 0.9, 1.0));
+        (from, (to - from).normalize(), from.distance(to))
+    }
+
+    #[test]
+    fn a_shadow_is_beers_law_of_the_column_whichever_way_it_is_found() {
+        let (origin, direction, length) = ray();
+        for extinction in [0.7, 3.0, 40.0] {
+            let (medium, lanes) = lanes(extinction, 0.0);
+            let column = medium.column(origin, direction, [0.0, length], f32::INFINITY).amount;
+            let exact = f64::from((-extinction as f32 * column).exp());
+            let thin = lanes.is_thin(direction, length);
+            assert_eq!(thin, extinction < 10.0);
+            let count = if thin { 20_000 } else { 1 };
+            let mut mean = 0.0;
+            for i in 0..count {
+                let mut sequence = Sequence::new(5, 0, i, 0);
+                let left = lanes.transmittance(origin, direction, length, &mut sequence);
+                assert_eq!(left.0[4..], [1.0; 2]);
+                mean += f64::from(left.0[0]) / count as f64;
+            }
+            assert!((mean / exact - 1.0).abs() < if thin { 5e-3 } else { 1e-5 }, "{mean} for {exact}");
         }
-        Found { weight, brightness: 1.0, scattered: None }
+    }
+
+    #[test]
+    fn a_path_gets_through_or_is_scattered_as_often_as_the_column_says() {
+        let (origin, direction, length) = ray();
+        for (absorption, scattering) in [(0.2, 0.4), (10.0, 20.0), (0.0, 40.0)] {
+            let (medium, lanes) = lanes(absorption, scattering);
+            let extinction = (absorption + scattering) as f32;
+            let whole = medium.column(origin, direction, [0.0, length], f32::INFINITY).amount;
+            let half = medium.column(origin, direction, [0.0, 0.5 * length], f32::INFINITY).amount;
+            let count = 40_000;
+            let [mut through, mut near, mut far] = [0.0f64; 3];
+            for i in 0..count {
+                let mut sequence = Sequence::new(7, 0, i, 0);
+                let found = lanes.travel(origin, direction, length, &mut Draws::new(0.5), &mut sequence);
+                let weight = f64::from(found.weight.0[0]) / count as f64;
+                match found.scattered {
+                    None => through += weight,
+                    Some(at) if at < 0.5 * length => near += weight,
+                    Some(_) => far += weight,
+                }
+            }
+            let albedo = scattering / (absorption + scattering);
+            let kept = |amount: f32| f64::from((-extinction * amount).exp());
+            let expected = [kept(whole), albedo * (1.0 - kept(half)), albedo * (kept(half) - kept(whole))];
+            for (found, expected) in [through, near, far].into_iter().zip(expected) {
+                assert!((found - expected).abs() < 4e-3, "{found} for {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_ray_of_millions_of_mean_free_paths_ends_at_once() {
+        let (origin, direction, length) = ray();
+        let (_, lanes) = lanes(0.0, 1e6);
+        let mut sequence = Sequence::new(1, 0, 0, 0);
+        let left = lanes.transmittance(origin, direction, length, &mut sequence);
+        assert_eq!(left.0[..4], [0.0; 4]);
+        let found = lanes.travel(origin, direction, length, &mut Draws::new(0.5), &mut sequence);
+        assert!(found.scattered.unwrap() < 1e-4 && (found.weight.0[0] - 1.0).abs() < 1e-6);
     }
 }

@@ -46,6 +46,14 @@ pub(crate) struct Job {
     pub haze: Option<Haze>,
 }
 
+impl Job {
+    /// Where in its pixel a sample lies that is at the same place in all of them.
+    pub fn shared_offset(&self, index: u64, replicate: u64) -> [f32; 2] {
+        let [u, v, ..] = self.numbers.sequence(self.settings.seed, 0, index, replicate).next4();
+        [self.filter.offset(u), self.filter.offset(v)]
+    }
+}
+
 #[derive(Default)]
 pub(crate) struct TileCounts {
     pub counts: Counts,

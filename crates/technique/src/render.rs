@@ -282,8 +282,9 @@ impl Render {
             // What was solved for in some samples is seen in those.
             (Some(solution), _) => Arc::clone(&solution.basis),
             (None, Some(given)) => given,
-            (None, None) => pool.install(|| basis(&scene, &settings))?,
+            (None, None) => pool.install(|| basis(&scene, &settings, cancel))?,
         };
+        cancel.check().map_err(|e| RenderError::Setting(e.to_string()))?;
         let by_lamp = settings.layers.contains(&Layer::Lamps);
         let (groups, group_of) = group_lamps(&*basis, scene.lamps.len(), by_lamp);
         let names: Vec<String> = scene.lamps.iter().map(|lamp| lamp.name.clone()).collect();
@@ -442,13 +443,25 @@ impl Render {
                 first.or(vertices.last())
             })
             .next()
-            .map(|vertex| &self.job.scene.objects[vertex.object as usize]);
+            .map(|vertex| vertex.object)
+            // Where no path is followed, it is what is seen there that was shaded.
+            .or_else(|| replay.passes.is_empty().then(|| self.seen_first(pixel, sample)).flatten())
+            .map(|object| &self.job.scene.objects[object as usize]);
         Dropped {
             pixel,
             sample,
             object: guilty.map(|o| o.name.clone()),
             material: guilty.map(|o| self.job.scene.materials[o.material].name.clone()),
         }
+    }
+
+    /// The object that a scanline technique sees in a pixel.
+    fn seen_first(&self, [x, y]: [u32; 2], sample: u64) -> Option<u32> {
+        let Job { scene, settings, .. } = &self.job;
+        let replicates = u64::from(settings.replicates.max(1));
+        let [dx, dy] = self.job.shared_offset(sample / replicates, sample % replicates);
+        let ray = scene.camera.ray(x as f32 + 0.5 + dx, y as f32 + 0.5 + dy, 0.0);
+        scene.geometry.closest_hit(&ray).map(|hit| hit.object)
     }
 
     /// Follows one path again: the very one that the film holds.
@@ -529,8 +542,8 @@ impl Render {
 
     /// What the spectral sampling costs in colour in this scene (CIEDE2000 against 1 nm), measured on paths of its own.
     #[must_use]
-    pub fn spectral_error(&self) -> SpectralError {
-        self.pool.install(|| spectral_error(&self.job.scene, &self.job.settings, &*self.basis))
+    pub fn spectral_error(&self, cancel: &Cancel) -> SpectralError {
+        self.pool.install(|| spectral_error(&self.job.scene, &self.job.settings, &*self.basis, cancel))
     }
 
     /// Sentences on what the user should know before rendering this scene with this sampling.

@@ -11,6 +11,7 @@ use crate::sampler::Numbers;
 use crate::settings::{Layer, Settings, Technique};
 use illuminant_color::{RgbSystem, Triple};
 use illuminant_illumination::Illumination;
+use illuminant_radiosity::Cancel;
 use illuminant_sampling::{
     Basis, Comparison, OneNanometre, Part, Product, Products, SamplingError, SpectralError, SpectralSampling,
     xyz_by,
@@ -128,8 +129,14 @@ fn paths<'a>(illumination: Illumination, settings: &'a Settings, light: Light<'a
     How { technique: Technique::Path, illumination, settings, light, solution: None }
 }
 
-/// What the pixels of a set show at every nm, for the kinds of lamps in `known`.
-fn probe(scene: &Arc<Scene>, settings: &Settings, known: &Products, set: Set) -> Option<Vec<Probe>> {
+/// What the pixels of a set show at every nm, for the kinds of lamps in `known`; `None` where it is cancelled.
+fn probe(
+    scene: &Arc<Scene>,
+    settings: &Settings,
+    known: &Products,
+    set: Set,
+    cancel: &Cancel,
+) -> Option<Vec<Probe>> {
     let basis = OneNanometre::new(scene.range);
     let kinds: Vec<usize> = known.representatives().collect();
     // A lamp of a kind gives its representative's light times the ratio of their luminances; a dark one gives none.
@@ -149,6 +156,9 @@ fn probe(scene: &Arc<Scene>, settings: &Settings, known: &Products, set: Set) ->
     let first = (range.min_nm - scene.range.min_nm) as usize;
     let weights: Vec<_> = kinds.iter().map(|&kind| known.weights_of_lamp(kind)).collect();
     let probes = pixels(scene, set).into_par_iter().enumerate().map(|(cell, pixel)| {
+        if cancel.is_cancelled() {
+            return None;
+        }
         let found = follow(&*renderer, &job, (cell, pixel), set, kinds.len(), basis.len());
         let parts = found.samples.iter().zip(&weights).map(|(samples, weights)| {
             let filter: Vec<f64> =
@@ -156,10 +166,12 @@ fn probe(scene: &Arc<Scene>, settings: &Settings, known: &Products, set: Set) ->
             let xyz = xyz_by(weights, &filter);
             (filter, xyz)
         });
-        Probe { pixel, cell, parts: parts.collect(), material: found.material, emits: found.emits }
+        Some(Probe { pixel, cell, parts: parts.collect(), material: found.material, emits: found.emits })
     });
+    let mut probes: Vec<Probe> = probes.collect::<Option<_>>()?;
     // A path that is no radiance is no product either.
-    Some(probes.filter(|p: &Probe| p.xyz().iter().all(|v| v.is_finite() && *v >= 0.0)).collect())
+    probes.retain(|probe| probe.xyz().iter().all(|v| v.is_finite() && *v >= 0.0));
+    Some(probes)
 }
 
 /// XYZ of the white beside which the scene is seen: D65 of the luminance that a PNG maps to 1; `None` in the dark.
@@ -219,9 +231,8 @@ pub fn reflectances(scene: &Scene) -> Vec<Curve> {
 }
 
 /// The products of a scene: what its pixels show, and with little weight those of its materials as such, one and two
-/// reflections under each lamp. `None` where the observer sees nothing of the light.
-#[must_use]
-pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
+/// reflections under each lamp. `None` where the observer sees nothing of the light, or it is cancelled.
+fn products(scene: &Arc<Scene>, settings: &Settings, cancel: &Cancel) -> Option<Products> {
     let own = known(scene)?;
     let kinds: Vec<usize> = own.representatives().collect();
     let mut products = known_with_later_ones(scene, settings)?;
@@ -230,7 +241,7 @@ pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
     products.add_reflectances(&reflectances(scene), 2, MOST_STAND_INS / lights.max(1), SEED);
     products.unknown = UNKNOWN;
     products.one_map = settings.layers.contains(&Layer::Spectra);
-    let probes = probe(scene, settings, &own, Set::Fitting)?;
+    let probes = probe(scene, settings, &own, Set::Fitting, cancel)?;
     let Some(white) = white(&probes) else { return Some(products) };
     let stand_ins = products.items.len();
     let stride = (probes.len() * lights).div_ceil(MOST_FITTED).max(1);
@@ -258,29 +269,43 @@ pub fn products(scene: &Arc<Scene>, settings: &Settings) -> Option<Products> {
     Some(products)
 }
 
-/// The spectral sampling that settings name, fitted to a scene if it is one that is fitted.
+/// The spectral sampling that settings name, fitted to a scene if it is one that is fitted; what is cancelled fits nothing.
 ///
 /// # Errors
 /// [`SamplingError`] when there is no such sampling.
-pub fn basis(scene: &Arc<Scene>, settings: &Settings) -> Result<Arc<dyn Basis>, SamplingError> {
+pub fn basis(
+    scene: &Arc<Scene>,
+    settings: &Settings,
+    cancel: &Cancel,
+) -> Result<Arc<dyn Basis>, SamplingError> {
     let sampling: SpectralSampling = settings.sampling.parse()?;
-    Ok(sampling.basis(scene.range, &|| products(scene, settings))?.into())
+    Ok(sampling.basis(scene.range, &|| products(scene, settings, cancel))?.into())
 }
 
 /// What a sampling costs in colour: ΔE00 between pixels integrated at 1 nm and the same paths in its samples, on paths
-/// that no fit has looked at. Zero where the observer sees nothing.
+/// that no fit has looked at. Zero where the observer sees nothing, or it is cancelled.
 #[must_use]
-pub fn spectral_error(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> SpectralError {
-    SpectralError::over(&comparisons(scene, settings, basis).unwrap_or_default())
+pub fn spectral_error(
+    scene: &Arc<Scene>,
+    settings: &Settings,
+    basis: &dyn Basis,
+    cancel: &Cancel,
+) -> SpectralError {
+    SpectralError::over(&comparisons(scene, settings, basis, cancel).unwrap_or_default())
 }
 
-fn comparisons(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Option<Vec<Comparison>> {
+fn comparisons(
+    scene: &Arc<Scene>,
+    settings: &Settings,
+    basis: &dyn Basis,
+    cancel: &Cancel,
+) -> Option<Vec<Comparison>> {
     if basis.is_spectral() && basis.len() == scene.range.len() {
         return None; // the reference itself
     }
     let known = known(scene)?;
     let kinds: Vec<usize> = known.representatives().collect();
-    let probes = probe(scene, settings, &known, Set::Judging)?;
+    let probes = probe(scene, settings, &known, Set::Judging, cancel)?;
     let white = white(&probes)?;
     let (groups, group_of) = group_lamps(basis, scene.lamps.len(), false);
     let (illumination, probing) = along_paths(settings)?;
@@ -289,6 +314,9 @@ fn comparisons(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Op
     let job = job(scene, settings, group_of);
     let maps: Vec<_> = groups.iter().map(|&lamp| basis.to_xyz(lamp)).collect();
     let of = |probe: &Probe| {
+        if cancel.is_cancelled() {
+            return None;
+        }
         let found =
             follow(&*renderer, &job, (probe.cell, probe.pixel), Set::Judging, groups.len(), basis.len());
         let mut sampled = [0.0; 3];
@@ -298,14 +326,14 @@ fn comparisons(scene: &Arc<Scene>, settings: &Settings, basis: &dyn Basis) -> Op
         }
         let brightest =
             probe.parts.iter().enumerate().max_by(|(_, (_, a)), (_, (_, b))| a[1].total_cmp(&b[1]));
-        Comparison {
+        Some(Comparison {
             exact: probe.xyz(),
             sampled,
             white,
             weight: 1.0,
             lamp: brightest.map_or(0, |(kind, _)| kinds[kind]),
             materials: probe.material.into_iter().collect(),
-        }
+        })
     };
-    Some(probes.par_iter().map(of).collect())
+    probes.par_iter().map(of).collect()
 }

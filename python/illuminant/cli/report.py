@@ -80,7 +80,7 @@ def closing(facts: dict[str, Any]) -> str:
     ]
     error = facts.get("spectral_error")
     if error and not error["judged"]:
-        parts.append("spectral ΔE00 not judged: no light but dispersed light")
+        parts.append("spectral ΔE00 not judged: no light, or only dispersed light")
     elif error:
         mean, largest = (value if value >= 0.001 else 0.0 for value in (error["mean"], error["max"]))
         parts.append(f"spectral ΔE00 {mean:.2g} (max {largest:.2g})")

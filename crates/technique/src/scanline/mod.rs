@@ -216,8 +216,7 @@ impl<const N: usize, M: IlluminationModel<N> + Prepare> Scanline<N, M> {
         channels: &mut [f32],
         seen: &mut [Primary],
     ) -> [f32; 2] {
-        let [u, v, ..] = job.numbers.sequence(job.settings.seed, 0, index, stream).next4();
-        let at = Sampled { area, offset: [job.filter.offset(u), job.filter.offset(v)] };
+        let at = Sampled { area, offset: job.shared_offset(index, stream) };
         // Channels hold all passes.
         let at_once = if self.channels.is_some() || self.fast.is_some() { self.passes.len() } else { 1 };
         for passes in self.passes.chunks(at_once.max(1)) {

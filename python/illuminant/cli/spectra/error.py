@@ -57,7 +57,7 @@ def error(
     for row in rows:
         if not row["judged"]:
             typer.echo(
-                f"{row['sampling']:<{width}}  nothing to judge: the image has no light but dispersed light"
+                f"{row['sampling']:<{width}}  nothing to judge: the image has no light, or only dispersed light"
             )
             continue
         worst = f"{row['material'] or 'surroundings'} under {row['lamp']}" if row["max"] > 0 else "none"
