@@ -159,7 +159,8 @@ def test_what_fits_once_fits_again(tmp_path, what):
 def test_what_the_process_holds_is_not_counted_again():
     bunny = illuminant.load(ROOT / "scenes/bunny.toml")
     tiles = illuminant.load(ROOT / "scenes/tiles.toml")
-    for one, part in ((bunny, "geometry"), (tiles, "textures and environments")):
+    morning = illuminant.load(ROOT / "scenes/morning.toml")
+    for one, part in ((bunny, "geometry"), (tiles, "textures and environments"), (morning, "skies")):
         assert part in job_memory.parts(Settings(), one, 64, 1)
         one.core()
         assert part not in job_memory.parts(Settings(), one, 64, 1)

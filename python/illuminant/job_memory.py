@@ -5,6 +5,7 @@
 | film and image | `film_memory.memory_needed` | 130 a pixel of 148, 360 of 436 with 8 lanes kept |
 | geometry | its arrays once more, and 100 a triangle for the ray structure | 236 MB for 2.0 million triangles |
 | images of surfaces and surroundings | 50 a pixel | 48 while tables are made, 18 and 30 after it |
+| skies | 3.3 million each | 3.1 million |
 | form factors | 18.5 each: 8, and as they are put together; 25 with checkpoints, which hold copies | 18 to 19; 25 |
 | directions of `specular-radiosity` | 12 a lane and cell | 11 |
 | subdivided polygons | 1200 a pixel over `subdivide` | 870 to 950 |
@@ -44,6 +45,7 @@ __all__ = ["check", "parts"]
 LIBRARIES = 50_000_000
 """Embree, threads, and what a small scene takes."""
 
+BYTES_A_SKY = 3_300_000
 BYTES_A_TRIANGLE, BYTES_A_PIXEL, BYTES_A_FACTOR, BYTES_A_KEPT_FACTOR = 100, 50, 18.5, 25.0
 SIDES_AN_ELEMENT, FACTORS_A_RAY = 1.3, 0.75
 BYTES_A_SUBDIVISION = 1200
@@ -83,12 +85,14 @@ def parts(
         array.shape[0] * array.shape[1] for name, array in arrays.items() if name.startswith("image:")
     )
     geometry = sum(array.nbytes for array in shapes if array.nbytes > 32) + BYTES_A_TRIANGLE * faces
+    skies = sum(light["kind"] == "sky" for light in scene.description["lights"])
     built = scene._geometry.core is not None
     found = {
         "libraries": 0 if built else LIBRARIES,
         "film and image": memory_needed(settings, pixels, lamps),
         "geometry": 0 if built else geometry,
         "textures and environments": 0 if scene._core is not None else BYTES_A_PIXEL * images,
+        "skies": 0 if scene._core is not None else BYTES_A_SKY * skies,
         "shadow maps": shadow_map_memory(settings, scene.description),
         "subdivided polygons": int(BYTES_A_SUBDIVISION * pixels / settings.subdivide)
         if settings.subdivide and settings.technique in SCANLINE
