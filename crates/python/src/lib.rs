@@ -17,6 +17,7 @@ mod spectrum;
 mod technique;
 mod toml;
 mod verify;
+mod waiting;
 
 use pyo3::prelude::*;
 

@@ -1,7 +1,8 @@
 //! `radiosity`: solutions of the light between surfaces.
 
 use crate::scene::PyScene;
-use crate::technique::{interruptible, settings, shaped};
+use crate::technique::{settings, shaped};
+use crate::waiting::interruptible;
 use glam::Vec3;
 use illuminant_radiosity::{Cancel, Sparse, SpectralRows};
 use illuminant_technique::{Given, RadiosityParts, RadiositySolution, RowFinder, basis};

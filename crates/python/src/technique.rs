@@ -2,6 +2,7 @@
 
 use crate::radiosity::PySolution;
 use crate::scene::PyScene;
+use crate::waiting::{interruptible, watched};
 use illuminant_illumination::Illumination;
 use illuminant_radiosity::Cancel;
 use illuminant_sampling::Role;
@@ -15,7 +16,6 @@ use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::sync::Arc;
-use std::time::Duration;
 
 /// Ranges of samples, in order.
 type Ranges = Vec<(u64, u64)>;
@@ -101,45 +101,13 @@ impl PyRender {
         let share = Share { samples: first..last, tiles: tiles.map(|(first, last)| first..last), from_lamps };
         let shared = Progress::default();
         let render = &mut self.0;
-        let (sender, receiver) = std::sync::mpsc::channel();
-        // Behind a lock, since the interpreter wants to see only what threads may share.
-        let receiver = std::sync::Mutex::new(receiver);
-        std::thread::scope(|scope| {
-            let shared = &shared;
-            let worker = scope.spawn(move || {
-                let complete = render.run(share, shared);
-                let _ = sender.send(());
-                complete
-            });
-            let mut raised = None;
-            loop {
-                let finished = py.detach(|| wait(&receiver));
-                if finished {
-                    break;
-                }
-                if raised.is_some() {
-                    continue;
-                }
-                let outcome = py.check_signals().and_then(|()| match &progress {
-                    Some(callback) => {
-                        Ok(callback.call1((shared.fraction(),))?.is(pyo3::types::PyBool::new(py, false)))
-                    }
-                    None => Ok(false),
-                });
-                match outcome {
-                    Ok(false) => {}
-                    Ok(true) => shared.cancel(),
-                    Err(error) => {
-                        shared.cancel();
-                        raised = Some(error);
-                    }
-                }
+        let goes_on = || match &progress {
+            Some(callback) => {
+                Ok(!callback.call1((shared.fraction(),))?.is(pyo3::types::PyBool::new(py, false)))
             }
-            let complete = worker
-                .join()
-                .map_err(|_| pyo3::exceptions::PyRuntimeError::new_err("a render thread died"))?;
-            raised.map_or(Ok(complete), Err)
-        })
+            None => Ok(true),
+        };
+        watched(py, &|| shared.cancel(), goes_on, || render.run(share, &shared))
     }
 
     /// The number of tiles, and x₀, y₀, x₁, y₁ of each.
@@ -322,42 +290,6 @@ impl PyRender {
         dict.set_item("spectrum", replay.spectrum)?;
         Ok(dict)
     }
-}
-
-/// Does work on another thread, and cancels it when Ctrl-C comes, which is then raised.
-pub(crate) fn interruptible<T: Send>(
-    py: Python<'_>,
-    cancel: &Cancel,
-    work: impl FnOnce() -> T + Send,
-) -> PyResult<T> {
-    let (sender, receiver) = std::sync::mpsc::channel();
-    let receiver = std::sync::Mutex::new(receiver);
-    std::thread::scope(|scope| {
-        let worker = scope.spawn(move || {
-            let result = work();
-            let _ = sender.send(());
-            result
-        });
-        let mut raised = None;
-        while !py.detach(|| wait(&receiver)) {
-            if raised.is_none() {
-                raised = py.check_signals().err();
-                if raised.is_some() {
-                    cancel.cancel();
-                }
-            }
-        }
-        let result = worker
-            .join()
-            .map_err(|_| pyo3::exceptions::PyRuntimeError::new_err("a thread of the core died"))?;
-        raised.map_or(Ok(result), Err)
-    })
-}
-
-/// Waits for the end of a run, a tenth of a second at most; whether it came.
-fn wait(receiver: &std::sync::Mutex<std::sync::mpsc::Receiver<()>>) -> bool {
-    let receiver = receiver.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    receiver.recv_timeout(Duration::from_millis(100)) != Err(std::sync::mpsc::RecvTimeoutError::Timeout)
 }
 
 /// Every technique with every illumination model: names, verdict, reason.
