@@ -16,6 +16,7 @@ import sys
 import time
 import warnings
 import zipfile
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 import numpy as np
@@ -42,6 +43,12 @@ material = "grey"
 kind = "environment"
 {light}
 """
+
+
+def beside(amount: int) -> AbstractContextManager[None]:
+    """So much memory beside what this process holds, once what earlier tests have freed is given back."""
+    machine.give_back()
+    return machine.limited_to(machine.resident() + amount)
 
 
 def scene(path: Path, reflectance="0.5", shape="sphere = { radius = 1.0 }", light='spectrum = "D65"') -> Path:
@@ -226,7 +233,7 @@ def test_memory_that_parsing_takes_is_counted(tmp_path):
     path = scene(tmp_path / "a.toml")
     path.write_text("k = [" + "{a=1}," * 500_000 + "]\n" + path.read_text())
     with (
-        machine.limited_to(machine.resident() + 200_000_000),
+        beside(200_000_000),
         pytest.raises(MachineError, match=r"a\.toml needs about"),
     ):
         illuminant.load(path)
@@ -308,7 +315,7 @@ def test_memory_is_looked_at_while_a_stream_goes_on():
     stream = Endless()
     heap.give_back(0.0)  # else what earlier tests have freed comes first
     with (
-        machine.limited_to(machine.resident() + 100_000_000),
+        beside(100_000_000),
         pytest.raises(MachineError, match=r"a\.gz needs about"),
     ):
         sources.drained(stream, 4_000_000_000, name="a.gz")
@@ -335,7 +342,7 @@ def test_a_compressed_mesh_that_swells(tmp_path):
     path = tmp_path / "a.ply.gz"
     path.write_bytes(gzip.compress(bytes(64_000_000), 1))
     with (
-        machine.limited_to(machine.resident() + 40_000_000),
+        beside(40_000_000),
         pytest.raises(MachineError, match=r"a\.ply\.gz needs about [1-3]\d MB"),
     ):
         meshes.read(path)
@@ -410,7 +417,7 @@ def test_a_density_takes_memory_for_its_cells(tmp_path):
         stream.truncate(stream.tell() + 100_000_000)
     # A cell is a byte in the file, and 32 in memory: three gigabytes, not one.
     with (
-        machine.limited_to(machine.resident() + 2_000_000_000),
+        beside(2_000_000_000),
         pytest.raises(MachineError, match=r"needs about 3\.2 GB"),
     ):
         illuminant.load(path)
