@@ -61,9 +61,13 @@ def killed(words: list[str], seconds: float, *, full: bool) -> int | None:
             return None
 
 
-def amount(file: Path) -> int:
-    """Samples over all pixels that a checkpoint holds; raises if it is not whole."""
-    return Checkpoint.read(file).samples
+def amount(file: Path) -> tuple[int, int]:
+    """How much work a checkpoint holds, in its order: rows of form factors, then samples; raises if it is not whole."""
+    kept = Checkpoint.read(file)
+    return (0, len(kept.rows)) if kept.rows else (1, kept.samples)
+
+
+NOTHING = (0, 0)
 
 
 def survive(kills: int, seed: int, options: list[str], folder: Path) -> Counter[str]:
@@ -75,7 +79,7 @@ def survive(kills: int, seed: int, options: list[str], folder: Path) -> Counter[
     subprocess.run(plain, check=True, capture_output=True)
     whole = time.monotonic() - start
     wanted = Image.open(reference)
-    checkpoint, before = folder / "image.ckpt", 0
+    checkpoint, before = folder / "image.ckpt", NOTHING
     while found["kills"] < kills or checkpoint.exists():
         full = chance.random() < 0.1 and found["kills"] < kills
         # After the last kill it is left in peace.
@@ -87,11 +91,12 @@ def survive(kills: int, seed: int, options: list[str], folder: Path) -> Counter[
             assert now >= before, f"a kill after {seconds:.3f} s lost {before} and left {now}"
             before = now
         else:
-            assert before == 0, "the checkpoint is gone"
+            assert before == NOTHING, "the checkpoint is gone"
         if ended is None:
             found["kills"] += 1
             found["while a checkpoint was written"] += writing
-            found["before the first checkpoint"] += not checkpoint.exists()
+            found["before the first checkpoint"] += before == NOTHING
+            found["while form factors were found"] += NOTHING < before < (1, 0)
             found["with a full disk"] += full
             continue
         if full:
@@ -105,7 +110,7 @@ def survive(kills: int, seed: int, options: list[str], folder: Path) -> Counter[
         assert image.settings == wanted.settings
         found["renders that came to their end, to the bit"] += 1
         checkpoint.unlink()
-        before = 0
+        before = NOTHING
     return found
 
 
@@ -116,18 +121,28 @@ def main() -> None:
     told.add_argument("--seed", type=int, default=1)
     told.add_argument("--size", default="256x256")
     told.add_argument("--samples", default="12")
-    told.add_argument("--technique", default="path")
+    told.add_argument("--techniques", default="path,radiosity", help="each has its share of the kills")
     told.add_argument("--record", type=Path, help="file that takes the result")
     given = told.parse_args()
-    options = ["--size", given.size, "--samples", given.samples, "--technique", given.technique]
-    options += ["--layers", "depth,normal,albedo", "--keep-spectra"]
-    start = time.monotonic()
-    with tempfile.TemporaryDirectory() as folder:
-        found = survive(given.kills, given.seed, options, Path(folder))
-        left = sorted(path.name for path in Path(folder).iterdir())
+    options = [
+        "--size",
+        given.size,
+        "--samples",
+        given.samples,
+        "--layers",
+        "depth,normal,albedo",
+        "--keep-spectra",
+    ]
+    techniques = given.techniques.split(",")
     lines = [f"illuminant {illuminant.__version__}, {date.today()}: renders killed at random moments"]
-    lines += [f"{count:6}  {what}" for what, count in found.items()]
-    lines += [f"{time.monotonic() - start:6.0f}  seconds; files left: {', '.join(left)}"]
+    for technique in techniques:
+        start = time.monotonic()
+        with tempfile.TemporaryDirectory() as folder:
+            kills = given.kills // len(techniques)
+            found = survive(kills, given.seed, [*options, "--technique", technique], Path(folder))
+            left = sorted(path.name for path in Path(folder).iterdir())
+        lines += [f"{technique}: {time.monotonic() - start:.0f} seconds; files left: {', '.join(left)}"]
+        lines += [f"{count:6}  {what}" for what, count in found.items() if count]
     text = "\n".join(lines)
     print(text)
     if given.record:

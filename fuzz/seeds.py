@@ -568,9 +568,25 @@ def all_seeds() -> Iterator[tuple[str, str, bytes]]:
     yield (
         "checkpoint",
         "small",
-        json.dumps({"identity": {"seed": 0}, "done": 64, "seconds": 2.5, "blocks": [4, 3]}).encode()
+        json.dumps(
+            {
+                "identity": {"seed": 0},
+                "done": 64,
+                "end": 128,
+                "samples": 4096,
+                "seconds": 2.5,
+                "blocks": [4, 3, 0],
+            }
+        ).encode()
         + b"\0sumssol",
     )
+    from illuminant.form_factor_rows import Rows
+
+    rows = Rows(
+        0, np.array([0, 1], np.uint64), np.array([0], np.uint32), np.array([0.5], np.float32)
+    ).to_bytes()
+    counts = {"done": 0, "end": 0, "samples": 0, "seconds": 0.0, "blocks": [0, 0, len(rows)]}
+    yield "checkpoint", "rows", json.dumps({"identity": {}, **counts}).encode() + b"\0" + rows
     from illuminant.job import Job
 
     job = Job(scene, size=(8, 8), samples=1, sampling="uniform:4", threads=1)

@@ -441,15 +441,17 @@ def solution(data: bytes) -> None:
         radiosity.Solution.load(written(with_zip_checksums(data), "a.solution"))
 
 
-@target("checkpoint", "illuminant.checkpoint", text=True)
+@target("checkpoint", "illuminant.checkpoint", "illuminant.form_factor_rows", text=True)
 def checkpoint(data: bytes) -> None:
     """A checkpoint: the input is its header and blocks; form, length and digest are made right."""
     from illuminant.checkpoint import FIRST_LINE, Checkpoint
+    from illuminant.form_factor_rows import Rows
 
     head, _, blocks = data.partition(b"\0")
     content = FIRST_LINE + struct.pack("<Q", len(head)) + head + blocks
-    Checkpoint.from_bytes(content + hashlib.sha256(content).digest())
-    Checkpoint.from_bytes(data)
+    kept = Checkpoint.from_bytes(content + hashlib.sha256(content).digest())
+    if kept.rows:
+        Rows.from_bytes(kept.rows)
 
 
 # --- what crosses into the core as JSON -----------------------------------------------------------------------------

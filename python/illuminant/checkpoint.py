@@ -1,8 +1,9 @@
 """Checkpoints of a render: a file from which it goes on after a crash, a full disk or a power cut, to the same bits.
 
 A checkpoint holds what the film holds (exact sums, so that it does not matter where the work was cut), how many
-samples are complete, the time that was spent, the solution of the light between surfaces where there is one, and the
-identity of the render: scene, settings, versions. One of another identity is refused with each difference named.
+samples are complete, the time that was spent, the solution of the light between surfaces where there is one (or, while
+it is being solved for, the rows of form factors that have been found), and the identity of the render: scene, settings,
+versions. One of another identity is refused with each difference named.
 
 The file: a line with the form, the length of a header in 8 bytes (little-endian), the header (JSON), the blocks that it
 names, and the SHA-256 digest of all before it. It is written beside the old one, flushed to the disk and then renamed
@@ -60,6 +61,8 @@ class Checkpoint:
         seconds: spent so far.
         part: what the film holds, as `Render.part` of the core gives it.
         solution: the light between surfaces, as `radiosity.Solution.to_bytes` gives it; empty where there is none.
+        rows: those of form factors that have been found, as `form_factor_rows.Rows.to_bytes` gives them, where that
+            light is still being solved for; no sample has been taken then.
     """
 
     identity: Mapping[str, Any]
@@ -69,6 +72,7 @@ class Checkpoint:
     seconds: float
     part: bytes
     solution: bytes = b""
+    rows: bytes = b""
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write it in place of an older one, whole or not at all.
@@ -80,14 +84,14 @@ class Checkpoint:
         path = Path(path)
         numbers = {"done": self.done, "end": self.end, "samples": self.samples, "seconds": self.seconds}
         header: dict[str, Any] = {"identity": self.identity, **numbers}
-        header["blocks"] = [len(self.part), len(self.solution)]
+        blocks = (self.part, self.solution, self.rows)
+        header["blocks"] = [len(block) for block in blocks]
         text = json.dumps(header, sort_keys=True).encode()
-        blocks = (FIRST_LINE, struct.pack("<Q", len(text)), text, self.part, self.solution)
 
         def encode(temporary: Path) -> None:
             digest = hashlib.sha256()
             with open(temporary, "wb") as file:
-                for block in blocks:
+                for block in (FIRST_LINE, struct.pack("<Q", len(text)), text, *blocks):
                     digest.update(block)
                     file.write(block)
                 file.write(digest.digest())
@@ -132,10 +136,12 @@ class Checkpoint:
             header = json.loads(content[start : start + length])
             identity, seconds = header["identity"], float(header["seconds"])
             done, end, samples = (header[key] for key in ("done", "end", "samples"))
-            part, solution = header["blocks"]
-            whole = isinstance(identity, dict) and min(part, solution) >= 0
-            whole &= start + length + part + solution + _DIGEST == len(content)
+            part, solution, rows = header["blocks"]
+            whole = isinstance(identity, dict) and min(part, solution, rows) >= 0
+            whole &= start + length + part + solution + rows + _DIGEST == len(content)
             whole &= all(isinstance(count, int) for count in (done, end, samples))
+            # Without a film there are no samples.
+            whole &= not rows or part == solution == end == samples == 0
             if not (whole and 0 <= done <= end < 2**32 and 0 <= samples < 2**63 and 0 <= seconds < 1e12):
                 raise ValueError("numbers")
             first = start + length
@@ -147,6 +153,7 @@ class Checkpoint:
                 seconds,
                 content[first : first + part],
                 content[first + part : first + part + solution],
+                content[first + part + solution : -_DIGEST],
             )
         except (ValueError, KeyError, TypeError, RecursionError, OverflowError) as error:
             raise DataError(f"{name} is damaged: its header cannot be.") from error

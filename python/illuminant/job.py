@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from illuminant.form_factor_rows import Rows
     from illuminant.kept_spectra import KeptSpectra
     from illuminant.scene import Scene
 
@@ -146,7 +147,7 @@ class Job:
         checkpoint: of the same render, which goes on from there.
         solve_by: solves for the light between surfaces in place of this process's threads: takes the scene and the
             settings, and returns the core's solution, or None to leave it to them.
-        checkpoints: whether some will be made, which takes memory.
+        keeper: writes checkpoints while the light between surfaces is solved for; that some will be made takes memory.
         allow_outside, memory_limit: as for `illuminant.render`.
         options: as `illuminant.render`.
 
@@ -166,13 +167,13 @@ class Job:
         like: Job | None = None,
         checkpoint: Checkpoint | None = None,
         solve_by: Callable[[Scene, Settings], Any] | None = None,
-        checkpoints: bool = False,
+        keeper: Keeper | None = None,
         allow_outside: bool = False,
         memory_limit: int | str | None = None,
         **options: Any,
     ) -> None:
         with machine.limited_to(memory_limit):
-            self._prepare(scene, solution, like, checkpoint, solve_by, checkpoints, allow_outside, options)
+            self._prepare(scene, solution, like, checkpoint, solve_by, keeper, allow_outside, options)
 
     def _prepare(
         self,
@@ -181,7 +182,7 @@ class Job:
         like: Job | None,
         checkpoint: Checkpoint | None,
         solve_by: Callable[[Scene, Settings], Any] | None,
-        checkpoints: bool,
+        keeper: Keeper | None,
         allow_outside: bool,
         options: dict[str, Any],
     ) -> None:
@@ -205,11 +206,13 @@ class Job:
         known = solution is not None or solved > 0
         light = solved if known else None
         needed = job_memory.parts(
-            self.settings, self.scene, width * height, lamps, light, checkpoints=checkpoints
+            self.settings, self.scene, width * height, lamps, light, checkpoints=keeper is not None
         )
         job_memory.check(needed)
         embree()
         self._spent, self._kept_solution = 0.0, b""
+        self._rows: list[Rows] = []
+        self.core_render: Any = None
         self._identity: dict[str, Any] = {}
         if checkpoint is not None:
             checkpoint.check(self.identity())
@@ -224,8 +227,10 @@ class Job:
                 like = None
             if solution is None and solve_by is not None and self.settings.technique in SOLVED:
                 solution = solve_by(self.scene, self.settings)
+            if solution is None and self.settings.technique == "radiosity":
+                solution = self._solved_with_checkpoints(keeper, checkpoint)
             make: Any = core().Render if like is None else like.core_render.again
-            self.core_render: Any = make(self.core_scene, self.settings.to_core(), solution)
+            self.core_render = make(self.core_scene, self.settings.to_core(), solution)
         except Error:
             raise
         except ValueError as error:
@@ -237,8 +242,32 @@ class Job:
         if checkpoint is not None:
             self._go_on(checkpoint)
 
+    def _solved_with_checkpoints(self, keeper: Keeper | None, before: Checkpoint | None) -> Any:
+        """The core's solution for `radiosity`, row by row; None where nobody keeps rows and none are kept."""
+        from illuminant.form_factor_rows import Rows, solve
+
+        known = Rows.from_bytes(before.rows) if before is not None and before.rows else None
+        if keeper is None and known is None:
+            return None
+
+        def found(ranges: list[Rows]) -> None:
+            self._rows = ranges
+            if keeper is not None and keeper.due():
+                keeper.keep(self)
+
+        try:
+            return solve(self.scene, self.settings, known, found)
+        except KeyboardInterrupt:
+            if keeper is not None and self._rows:
+                keeper.keep(self)
+            raise
+        finally:
+            self._rows = []
+
     def _go_on(self, checkpoint: Checkpoint) -> None:
         """Take over what a checkpoint holds."""
+        if checkpoint.rows:
+            return
         self.join(checkpoint.part)
         self.done, self.under_way, self._spent = checkpoint.done, checkpoint.end, checkpoint.seconds
         tiles, from_lamps = self.core_render.seen()
@@ -283,6 +312,10 @@ class Job:
 
     def checkpoint(self) -> Checkpoint:
         """All that is needed to go on from here in another process."""
+        if self.core_render is None:
+            from illuminant.form_factor_rows import joined
+
+            return Checkpoint(self.identity(), 0, 0, 0, self._spent, b"", rows=joined(self._rows).to_bytes())
         return Checkpoint(
             self.identity(),
             done=self.done,

@@ -250,7 +250,7 @@ def render(
         mechanisms=mechanisms,
         frustum=frustum,
         cube=cube,
-        checkpoints=keeper is not None,
+        keeper=keeper,
         allow_outside=allow_outside,
         memory_limit=memory_limit,
     )

@@ -2,6 +2,7 @@
 
 import json
 import random
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from hypothesis import strategies as st
 import illuminant
 from illuminant.checkpoint import Checkpoint, Keeper
 from illuminant.errors import DataError, MachineError, UsageError
+from illuminant.form_factor_rows import Rows, joined
 from illuminant.job import Job
 from illuminant.rendering import RenderInterrupted
 
@@ -54,6 +56,80 @@ def test_a_render_that_was_cut_off_goes_on_to_the_same_bits(scenes, tmp_path, ki
         if not job.stopped:
             break
     same(job.image(), whole)
+
+
+class Dying(Keeper):
+    """Keeps so many checkpoints, and then the process dies."""
+
+    def __init__(self, file: Path, keeps: int) -> None:
+        super().__init__(file, every=0.0)
+        self.left = keeps
+
+    def keep(self, job: Job) -> bool:
+        """Keep one, or die."""
+        kept = super().keep(job)
+        self.left -= 1
+        if self.left == 0:
+            raise SystemExit
+        return kept
+
+
+def test_form_factors_that_were_found_are_not_found_again(scenes, tmp_path, same):
+    options = {**SMALL, "technique": "radiosity", "elements": 300, "form_factors": "rays:64"}
+    whole = illuminant.render(scenes / "cornell.toml", **options)
+    file, before = tmp_path / "image.ckpt", None
+    kept = []
+    for keeps in (2, 1, 0):
+        with pytest.raises(SystemExit) if keeps else nullcontext():
+            job = Job(scenes / "cornell.toml", checkpoint=before, keeper=Dying(file, keeps), **options)
+        before = Checkpoint.read(file)
+        if keeps:
+            assert (before.done, before.end, before.samples, before.part) == (0, 0, 0, b"")
+            kept.append(before)
+    # 16 and 32, then 16 more.
+    assert [len(Rows.from_bytes(one.rows)) for one in kept] == [48, 64]
+    list(job.passes(None, Keeper(file)))
+    same(job.image(), whole)
+    last = Checkpoint.read(file)
+    assert last.solution
+    assert not last.rows
+    # Who has no keeper goes on from them too.
+    job = Job(scenes / "cornell.toml", checkpoint=kept[0], **options)
+    list(job.passes())
+    same(job.image(), whole)
+
+
+def test_ctrl_c_keeps_the_form_factors_so_far(scenes, tmp_path, monkeypatch):
+    options = {**SMALL, "technique": "radiosity", "elements": 300, "form_factors": "rays:64"}
+
+    def interrupt(*_: object) -> bool:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Keeper, "due", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        illuminant.render(scenes / "cornell.toml", checkpoint=tmp_path / "a.ckpt", **options)
+    assert len(Rows.from_bytes(Checkpoint.read(tmp_path / "a.ckpt").rows)) == 16
+
+
+def test_rows_that_are_not_of_the_scene_are_refused(scenes, tmp_path):
+    options = {**SMALL, "technique": "radiosity", "elements": 300, "form_factors": "rays:64"}
+    with pytest.raises(SystemExit):
+        Job(scenes / "cornell.toml", keeper=Dying(tmp_path / "a.ckpt", 1), **options)
+    kept = Checkpoint.read(tmp_path / "a.ckpt")
+    rows = Rows.from_bytes(kept.rows)
+    many = joined([replace(rows, first=i * len(rows)) for i in range(200)])
+    wide = replace(rows, columns=rows.columns + 100_000)
+    negative = replace(rows, values=-rows.values)
+    nothing = replace(rows, values=rows.values * float("nan"))
+    for wrong in (many, wide, negative, nothing, replace(rows, starts=rows.starts[::-1])):
+        with pytest.raises(DataError, match="form factors of the checkpoint are damaged"):
+            Job(scenes / "cornell.toml", checkpoint=replace(kept, rows=wrong.to_bytes()), **options)
+    for content in (kept.rows[:-1], kept.rows[:9], b"\xff" * 16):
+        with pytest.raises(DataError, match="damaged"):
+            Rows.from_bytes(content)
+    replace(kept, done=1, end=1).write(tmp_path / "b.ckpt")
+    with pytest.raises(DataError, match="damaged: its header cannot be"):
+        Checkpoint.read(tmp_path / "b.ckpt")
 
 
 def test_a_range_that_was_cut_off_is_completed_before_its_noise_decides(scenes, tmp_path, same):

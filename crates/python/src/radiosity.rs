@@ -5,7 +5,7 @@ use crate::technique::{settings, shaped};
 use crate::waiting::interruptible;
 use glam::Vec3;
 use illuminant_radiosity::{Cancel, Sparse, SpectralRows};
-use illuminant_technique::{Given, RadiosityParts, RadiositySolution, RowFinder, basis};
+use illuminant_technique::{Given, RadiosityParts, RadiositySolution, RowFinder, basis, pool};
 use numpy::ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, ToPyArray};
 use pyo3::exceptions::PyValueError;
@@ -176,9 +176,12 @@ impl PySolution {
             }
         };
         let cancel = flag(cancel);
+        let pool = pool(settings.threads).map_err(wrong)?;
         let found = interruptible(py, &cancel, || {
-            let basis = basis(&scene, &settings, &cancel).map_err(|e| e.to_string())?;
-            RadiositySolution::new_unless_cancelled(&scene, &settings, basis, given, &cancel)
+            pool.install(|| {
+                let basis = basis(&scene, &settings, &cancel).map_err(|e| e.to_string())?;
+                RadiositySolution::new_unless_cancelled(&scene, &settings, basis, given, &cancel)
+            })
         })?;
         unless(&cancel, found).map(Self::from)
     }

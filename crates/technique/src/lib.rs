@@ -37,7 +37,7 @@ pub use radiosity::{
     Gather, Given, Mechanisms, RadiosityParts, RadiosityReport, RadiositySettings, RadiositySolution,
     RowFinder,
 };
-pub use render::{Dropped, Progress, Render, RenderError, Share, Statistics};
+pub use render::{Dropped, Progress, Render, RenderError, Share, Statistics, pool};
 pub use sampler::Sampler;
 pub use scanline::edges;
 pub use scene_products::{basis, reflectances, spectral_error};

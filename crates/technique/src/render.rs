@@ -122,6 +122,20 @@ impl From<Range<u64>> for Share {
     }
 }
 
+/// As many threads as a setting asks for; 0 for as many as there are processors.
+///
+/// # Errors
+/// [`RenderError::Setting`] when there are too many, or none can be started.
+pub fn pool(threads: usize) -> Result<rayon::ThreadPool, RenderError> {
+    if threads > MOST_THREADS {
+        return Err(RenderError::Setting(format!("threads must be 0 to {MOST_THREADS}, not {threads}")));
+    }
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|e| RenderError::Setting(format!("no threads can be started: {e}")))
+}
+
 /// The progress of a run, shared with whoever watches it.
 #[derive(Debug, Default)]
 pub struct Progress {
@@ -270,14 +284,7 @@ impl Render {
         if scene.lamps.is_empty() {
             return Err(RenderError::NoLight);
         }
-        if settings.threads > MOST_THREADS {
-            let given = settings.threads;
-            return Err(RenderError::Setting(format!("threads must be 0 to {MOST_THREADS}, not {given}")));
-        }
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(settings.threads)
-            .build()
-            .map_err(|e| RenderError::Setting(format!("no threads can be started: {e}")))?;
+        let pool = pool(settings.threads)?;
         let basis: Arc<dyn Basis> = match (&solution, wavelengths) {
             // What was solved for in some samples is seen in those.
             (Some(solution), _) => Arc::clone(&solution.basis),

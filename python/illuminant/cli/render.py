@@ -438,7 +438,7 @@ def render(
                 scene,
                 checkpoint=before,
                 solve_by=done_by.get().solve_by,
-                checkpoints=keeper is not None,
+                keeper=keeper,
                 allow_outside=allow_outside,
                 memory_limit=memory_limit,
                 **options,

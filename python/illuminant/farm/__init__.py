@@ -130,7 +130,7 @@ def render(
             scene,
             checkpoint=before,
             solve_by=lambda scene, settings: solve(ray, scene, settings, threads=threads),
-            checkpoints=keeper is not None,
+            keeper=keeper,
             **options,
         )
         log_warnings(job)
@@ -230,33 +230,20 @@ def solve(ray: Any, scene: Scene, settings: Settings, *, threads: int = 1) -> An
     """
     if settings.technique != "radiosity":
         return None
-    import numpy as np
-
     from illuminant.core import core, embree
     from illuminant.farm.dispatch import dispatched, lanes
+    from illuminant.form_factor_rows import joined, solution_of
 
     embree()
-    core_scene = scene.core(settings.threads)
     told = replace(settings, threads=threads).to_core()
-    finder = core().RowFinder(core_scene, told)
+    finder = core().RowFinder(scene.core(settings.threads), told)
     count, width = len(finder), finder.width
     del finder
     work = Work(f"{scene.hash()} {told}", told, threads, [ray.put(scene.to_bytes())])
     step = max(16, count // (8 * lanes(ray, threads)))
     calls = ((first, (work, first, min(first + step, count))) for first in range(0, count, step))
     found = [result for _, result in dispatched(ray, rows, calls, threads=threads)]
-    found.sort(key=lambda one: one.first)
-    starts, end = [np.zeros(1, np.uint64)], 0
-    for one in found:
-        starts.append(one.starts[1:] + np.uint64(end))
-        end += int(one.starts[-1])
-    together = {
-        "starts": np.concatenate(starts),
-        "columns": np.concatenate([one.columns for one in found]),
-        "values": np.concatenate([one.values for one in found]),
-        "width": width,
-    }
-    return core().Solution(core_scene, settings.to_core(), None, together)
+    return solution_of(scene, settings, joined(found), width)
 
 
 def _work(ray: Any, job: Job, threads: int) -> Work:

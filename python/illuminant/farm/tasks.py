@@ -12,7 +12,9 @@ import time
 from dataclasses import dataclass
 from typing import Any
 
-__all__ = ["Brought", "Rows", "Work", "rows", "share"]
+from illuminant.form_factor_rows import Rows
+
+__all__ = ["Brought", "Work", "rows", "share"]
 
 
 @dataclass(frozen=True)
@@ -48,23 +50,6 @@ class Brought:
     seconds: float
     prepared: float
     process: int
-
-
-@dataclass(frozen=True)
-class Rows:
-    """Rows of form factors that a task found.
-
-    Attributes:
-        first: number of the first.
-        starts: where each begins in the other two, and the end.
-        columns: of the entries.
-        values: of the entries.
-    """
-
-    first: int
-    starts: Any
-    columns: Any
-    values: Any
 
 
 _kept: dict[str, Any] = {}
@@ -128,5 +113,4 @@ def rows(work: Work, first: int, last: int) -> Rows:
         embree()
         (scene,) = ray.get(work.references)
         _kept[key] = core().RowFinder(Scene.from_bytes(scene).core(work.threads), work.settings)
-    starts, columns, values = _kept[key].find(first, last)
-    return Rows(first, starts, columns, values)
+    return Rows(first, *_kept[key].find(first, last))

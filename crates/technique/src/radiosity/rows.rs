@@ -3,6 +3,7 @@
 use super::cutting::cut;
 use super::reflectance::Counted;
 use super::solution::{LANES, counted, prepared, with_model};
+use crate::render::pool;
 use crate::settings::Settings;
 use illuminant_illumination::{General, Historic, Illumination, IlluminationModel, Prepare};
 use illuminant_radiosity::{Cancel, Elements, FormFactors, Method, Sparse};
@@ -16,6 +17,7 @@ pub struct RowFinder {
     scene: Arc<Scene>,
     elements: Elements,
     method: Method,
+    pool: rayon::ThreadPool,
 }
 
 impl RowFinder {
@@ -32,8 +34,9 @@ impl RowFinder {
             ));
         }
         let (method, _) = settings.radiosity.checked()?;
-        let elements = with_model!(settings, elements(&scene, settings, basis))?;
-        Ok(Self { scene, elements, method })
+        let pool = pool(settings.threads).map_err(|e| e.to_string())?;
+        let elements = pool.install(|| with_model!(settings, elements(&scene, settings, basis)))?;
+        Ok(Self { scene, elements, method, pool })
     }
 
     /// How many rows there are: one for each side that light reaches.
@@ -53,7 +56,9 @@ impl RowFinder {
     pub fn find(&self, sides: Range<usize>) -> Sparse {
         let end = sides.end.min(self.sides());
         let sides: Vec<u32> = (sides.start.min(end)..end).map(|side| side as u32).collect();
-        FormFactors::of(&self.elements, &sides, &self.scene.geometry, self.method, &Cancel::default()).rows
+        let (elements, geometry) = (&self.elements, &self.scene.geometry);
+        self.pool
+            .install(|| FormFactors::of(elements, &sides, geometry, self.method, &Cancel::default()).rows)
     }
 }
 
