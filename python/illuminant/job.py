@@ -32,7 +32,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from illuminant import job_memory, machine
 from illuminant.checkpoint import Checkpoint, Keeper
 from illuminant.core import core, embree
-from illuminant.errors import DataError, Error, MachineError, UsageError
+from illuminant.errors import DataError, Error, Interrupted, MachineError, UsageError
 from illuminant.examination import WORDS, refuse
 from illuminant.film_memory import check_memory, check_shadow_maps
 from illuminant.image import Image
@@ -258,9 +258,11 @@ class Job:
         try:
             return solve(self.scene, self.settings, known, found)
         except KeyboardInterrupt:
-            if keeper is not None and self._rows:
-                keeper.keep(self)
-            raise
+            if keeper is None or not self._rows or not keeper.keep(self):
+                raise
+            raise Interrupted(
+                f"{keeper.path} holds the form factors that were found; no image was made."
+            ) from None
         finally:
             self._rows = []
 

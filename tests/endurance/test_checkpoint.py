@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import illuminant
 from illuminant.checkpoint import Checkpoint, Keeper
-from illuminant.errors import DataError, MachineError, UsageError
+from illuminant.errors import DataError, Interrupted, MachineError, UsageError
 from illuminant.form_factor_rows import Rows, joined
 from illuminant.job import Job
 from illuminant.rendering import RenderInterrupted
@@ -106,7 +106,7 @@ def test_ctrl_c_keeps_the_form_factors_so_far(scenes, tmp_path, monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Keeper, "due", interrupt)
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(Interrupted, match=r"a\.ckpt holds the form factors that were found"):
         illuminant.render(scenes / "cornell.toml", checkpoint=tmp_path / "a.ckpt", **options)
     assert len(Rows.from_bytes(Checkpoint.read(tmp_path / "a.ckpt").rows)) == 16
 
