@@ -47,6 +47,7 @@ def test_a_limit_is_no_part_of_the_image():
 MEASURED = """
 import sys, json
 from illuminant import job_memory, machine
+from illuminant.checkpoint import Keeper
 from illuminant.core import core, embree
 from illuminant.job import Job
 from illuminant.scene import Scene
@@ -56,10 +57,10 @@ scene = Scene.load(sys.argv[1])
 held, found, check = machine.resident(), [], job_memory.parts
 job_memory.parts = lambda *given, **more: found.append(check(*given, **more)) or found[-1]
 options = json.loads(sys.argv[2])
-job = Job(scene, **options)
-for _ in job.passes():
-    if options.get("checkpoints"):
-        job.checkpoint().write(sys.argv[3])
+keeper = Keeper(sys.argv[3], every=0.0) if options.pop("checkpoints", False) else None
+job = Job(scene, keeper=keeper, **options)
+for _ in job.passes(None, keeper):
+    pass
 job.image()
 print(held + sum(found[0].values()), machine.peak_memory())
 """
@@ -72,6 +73,16 @@ print(held + sum(found[0].values()), machine.peak_memory())
         ("cornell", {"samples": 1, "size": [1000, 1000], "keep_spectra": True}),
         ("cornell", {"samples": 1, "size": [1000, 1000], "checkpoints": True}),
         ("cornell", {"samples": 1, "size": [16, 16], "technique": "radiosity", "light_samples": 1}),
+        (
+            "cornell",
+            {
+                "samples": 1,
+                "size": [16, 16],
+                "technique": "radiosity",
+                "light_samples": 1,
+                "solver": "progressive",
+            },
+        ),
         (
             "cornell",
             {

@@ -119,8 +119,6 @@ def _radiosity(settings: Settings, triangles: int, checkpoints: bool) -> int:
     number = int(count) if count.isdigit() else 1
     asked = {"rays": number, "hemicube": 3 * number**2}.get(kind)
     each = patches if asked is None else min(patches, FACTORS_A_RAY * asked)
-    if settings.solver == "progressive":
-        each = 0
     dense = 4 * patches**2 * values if settings.solver == "gauss" else 0
     of_a_factor = BYTES_A_KEPT_FACTOR if checkpoints else BYTES_A_FACTOR
     return int(of_a_factor * sides * each + dense + 40 * values * sides)
