@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 __all__ = ["MAX_BYTES", "MAX_HEADER", "Checkpoint", "Keeper", "resumed"]
 
-FIRST_LINE = b"illuminant checkpoint 1\n"
+FIRST_LINE = b"illuminant checkpoint 2\n"
 MAX_HEADER = 1_000_000
 """The longest header, bytes."""
 

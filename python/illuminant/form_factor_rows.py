@@ -34,8 +34,6 @@ __all__ = ["Rows", "joined", "solution_of", "solve"]
 _COUNTS = struct.Struct("<QQ")
 SECONDS = 0.5
 """Of work between two looks at the clock."""
-LEAST = 16
-"""Rows of a range, at least."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +58,9 @@ class Rows:
     def to_bytes(self) -> bytes:
         """Bytes from which `from_bytes` makes the same rows; they must begin with the first of all."""
         counts = _COUNTS.pack(len(self), len(self.columns))
-        return b"".join([counts, self.starts.tobytes(), self.columns.tobytes(), self.values.tobytes()])
+        return b"".join(
+            [counts, *(memoryview(one).cast("B") for one in (self.starts, self.columns, self.values))]
+        )
 
     @classmethod
     def from_bytes(cls, content: bytes) -> Rows:
@@ -119,16 +119,14 @@ def solution_of(scene: Scene, settings: Settings, rows: Rows, width: int) -> Any
     return core().Solution(scene.core(settings.threads), settings.to_core(), None, together)
 
 
-def solve(
-    scene: Scene, settings: Settings, before: Rows | None, found: Callable[[list[Rows]], object]
-) -> Any:
+def solve(scene: Scene, settings: Settings, ranges: list[Rows], look: Callable[[], object]) -> Any:
     """Solve for the light between surfaces for `radiosity`, row by row.
 
     Args:
         scene: what is solved for.
         settings: of the render.
-        before: rows that are there already, from the first on.
-        found: is given all ranges so far after about each half second of work.
+        ranges: rows that are there already, from the first on; takes those that are found.
+        look: is called after about each half second of work. It may put the ranges together.
 
     Returns:
         The core's solution.
@@ -140,16 +138,17 @@ def solve(
 
     finder = core().RowFinder(scene.core(settings.threads), settings.to_core())
     count, width = len(finder), finder.width
-    ranges = [] if before is None else [before]
     done = sum(map(len, ranges))
     if done > count or any(len(one.columns) and int(one.columns.max()) >= width for one in ranges):
         raise DataError("The form factors of the checkpoint are damaged: the scene has fewer.")
-    step = LEAST
+    step = 1
     while done < count:
         end, began = min(done + step, count), time.monotonic()
         ranges.append(Rows(done, *finder.find(done, end)))
         done = end
         seconds = time.monotonic() - began
-        step = max(LEAST, int(step * min(2.0, SECONDS / max(seconds, 1e-6))))
-        found(ranges)
-    return solution_of(scene, settings, joined(ranges), width)
+        step = max(1, int(step * min(2.0, SECONDS / max(seconds, 1e-6))))
+        look()
+    del finder
+    ranges[:] = [joined(ranges)]
+    return solution_of(scene, settings, ranges[0], width)

@@ -246,17 +246,16 @@ class Job:
         """The core's solution for `radiosity`, row by row; None where nobody keeps rows and none are kept."""
         from illuminant.form_factor_rows import Rows, solve
 
-        known = Rows.from_bytes(before.rows) if before is not None and before.rows else None
-        if keeper is None and known is None:
+        self._rows = [Rows.from_bytes(before.rows)] if before is not None and before.rows else []
+        if keeper is None and not self._rows:
             return None
 
-        def found(ranges: list[Rows]) -> None:
-            self._rows = ranges
+        def look() -> None:
             if keeper is not None and keeper.due():
                 keeper.keep(self)
 
         try:
-            return solve(self.scene, self.settings, known, found)
+            return solve(self.scene, self.settings, self._rows, look)
         except KeyboardInterrupt:
             if keeper is None or not self._rows or not keeper.keep(self):
                 raise
@@ -317,7 +316,8 @@ class Job:
         if self.core_render is None:
             from illuminant.form_factor_rows import joined
 
-            return Checkpoint(self.identity(), 0, 0, 0, self._spent, b"", rows=joined(self._rows).to_bytes())
+            self._rows[:] = [joined(self._rows)]
+            return Checkpoint(self.identity(), 0, 0, 0, self._spent, b"", rows=self._rows[0].to_bytes())
         return Checkpoint(
             self.identity(),
             done=self.done,

@@ -6,7 +6,7 @@
 | geometry | its arrays once more, and 100 a triangle for the ray structure | 236 MB for 2.0 million triangles |
 | images of surfaces and surroundings | 50 a pixel | 48 while tables are made, 18 and 30 after it |
 | skies | 3.3 million each | 3.1 million |
-| form factors | 18.5 each: 8, and as they are put together; 25 with checkpoints, which hold copies | 18 to 19; 25 |
+| form factors | 18.5 each: 8, and as they are put together; 32 with checkpoints, by copies | 18 to 19; 29 to 32 |
 | directions of `specular-radiosity` | 12 a lane and cell | 11 |
 | subdivided polygons | 1200 a pixel over `subdivide` | 870 to 950 |
 | shadow maps | `film_memory.shadow_map_memory`, at most | fewer where a lamp sees part of the scene |
@@ -46,7 +46,7 @@ LIBRARIES = 50_000_000
 """Embree, threads, and what a small scene takes."""
 
 BYTES_A_SKY = 3_300_000
-BYTES_A_TRIANGLE, BYTES_A_PIXEL, BYTES_A_FACTOR, BYTES_A_KEPT_FACTOR = 100, 50, 18.5, 25.0
+BYTES_A_TRIANGLE, BYTES_A_PIXEL, BYTES_A_FACTOR, BYTES_A_KEPT_FACTOR = 100, 50, 18.5, 32.0
 SIDES_AN_ELEMENT, FACTORS_A_RAY = 1.3, 0.75
 BYTES_A_SUBDIVISION = 1200
 """Of the triangles that stand for an area of `subdivide` pixels: two or more, with their vertices and edges."""

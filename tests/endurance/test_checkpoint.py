@@ -1,7 +1,11 @@
 """Checkpoints: a render that was cut off goes on to the bits of one that was not; wrong files are refused."""
 
 import json
+import os
 import random
+import signal
+import threading
+import time
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import illuminant
-from illuminant.checkpoint import Checkpoint, Keeper
+from illuminant.checkpoint import FIRST_LINE, Checkpoint, Keeper
 from illuminant.errors import DataError, Interrupted, MachineError, UsageError
 from illuminant.form_factor_rows import Rows, joined
 from illuminant.job import Job
@@ -86,8 +90,8 @@ def test_form_factors_that_were_found_are_not_found_again(scenes, tmp_path, same
         if keeps:
             assert (before.done, before.end, before.samples, before.part) == (0, 0, 0, b"")
             kept.append(before)
-    # 16 and 32, then 16 more.
-    assert [len(Rows.from_bytes(one.rows)) for one in kept] == [48, 64]
+    # A row and two more, then another.
+    assert [len(Rows.from_bytes(one.rows)) for one in kept] == [3, 4]
     list(job.passes(None, Keeper(file)))
     same(job.image(), whole)
     last = Checkpoint.read(file)
@@ -108,7 +112,28 @@ def test_ctrl_c_keeps_the_form_factors_so_far(scenes, tmp_path, monkeypatch):
     monkeypatch.setattr(Keeper, "due", interrupt)
     with pytest.raises(Interrupted, match=r"a\.ckpt holds the form factors that were found"):
         illuminant.render(scenes / "cornell.toml", checkpoint=tmp_path / "a.ckpt", **options)
-    assert len(Rows.from_bytes(Checkpoint.read(tmp_path / "a.ckpt").rows)) == 16
+    assert len(Rows.from_bytes(Checkpoint.read(tmp_path / "a.ckpt").rows)) == 1
+
+
+def test_ctrl_c_ends_rows_that_take_long(scenes, tmp_path):
+    options = {
+        **SMALL,
+        "technique": "radiosity",
+        "elements": 300,
+        "form_factors": "rays:1000000",
+        "threads": 1,
+    }
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    timer = threading.Timer(4.0, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    begin = time.monotonic()
+    try:
+        with pytest.raises((Interrupted, KeyboardInterrupt)):
+            illuminant.render(scenes / "cornell.toml", checkpoint=tmp_path / "a.ckpt", **options)
+        assert time.monotonic() - begin < 30.0
+    finally:
+        timer.cancel()
+        signal.signal(signal.SIGINT, before)
 
 
 def test_rows_that_are_not_of_the_scene_are_refused(scenes, tmp_path):
@@ -117,11 +142,11 @@ def test_rows_that_are_not_of_the_scene_are_refused(scenes, tmp_path):
         Job(scenes / "cornell.toml", keeper=Dying(tmp_path / "a.ckpt", 1), **options)
     kept = Checkpoint.read(tmp_path / "a.ckpt")
     rows = Rows.from_bytes(kept.rows)
-    many = joined([replace(rows, first=i * len(rows)) for i in range(200)])
+    many = joined([replace(rows, first=i * len(rows)) for i in range(2000)])
     wide = replace(rows, columns=rows.columns + 100_000)
     negative = replace(rows, values=-rows.values)
     nothing = replace(rows, values=rows.values * float("nan"))
-    for wrong in (many, wide, negative, nothing, replace(rows, starts=rows.starts[::-1])):
+    for wrong in (many, wide, negative, nothing, replace(rows, starts=rows.starts[::-1].copy())):
         with pytest.raises(DataError, match="form factors of the checkpoint are damaged"):
             Job(scenes / "cornell.toml", checkpoint=replace(kept, rows=wrong.to_bytes()), **options)
     for content in (kept.rows[:-1], kept.rows[:9], b"\xff" * 16):
@@ -275,9 +300,9 @@ def test_a_header_that_cannot_be_is_refused_even_with_the_right_digest(header):
     import hashlib
     import struct
 
-    whole = {"identity": {}, "done": 1, "end": 1, "samples": 1, "seconds": 1, "blocks": [0, 0]}
+    whole = {"identity": {}, "done": 1, "end": 1, "samples": 1, "seconds": 1, "blocks": [0, 0, 0]}
     text = json.dumps(header and whole | header).encode()
-    content = b"illuminant checkpoint 1\n" + struct.pack("<Q", len(text)) + text
+    content = FIRST_LINE + struct.pack("<Q", len(text)) + text
     with pytest.raises(DataError, match="damaged"):
         Checkpoint.from_bytes(content + hashlib.sha256(content).digest())
 
@@ -369,7 +394,7 @@ def test_the_command_keeps_and_resumes(inside, scenes, tmp_path):
     assert one.settings == other.settings
     assert "goes with --checkpoint" in inside(*words, "--resume").stderr
     assert "--every soon" in inside(*words, *kept, "--every", "soon").stderr
-    (tmp_path / "a.ckpt").write_bytes(b"illuminant checkpoint 1\n" + bytes(90))
+    (tmp_path / "a.ckpt").write_bytes(FIRST_LINE + bytes(90))
     damaged = inside(*words, *kept, "--resume")
     assert damaged.returncode == 2
     assert "is damaged" in damaged.stderr

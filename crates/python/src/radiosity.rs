@@ -60,10 +60,8 @@ impl PyRowFinder {
     #[new]
     fn new(py: Python<'_>, scene: &PyScene, settings: &str) -> PyResult<Self> {
         let (settings, scene) = (self::settings(settings)?, Arc::clone(&scene.0));
-        py.detach(|| {
-            let basis = basis(&scene, &settings, &Cancel::default()).map_err(wrong)?;
-            RowFinder::new(scene, &settings, &*basis).map(Self).map_err(wrong)
-        })
+        let cancel = Cancel::default();
+        interruptible(py, &cancel, || RowFinder::new(scene, &settings, &cancel))?.map(Self).map_err(wrong)
     }
 
     /// How many rows there are.
@@ -84,13 +82,14 @@ impl PyRowFinder {
         py: Python<'py>,
         first: usize,
         last: usize,
-    ) -> (Bound<'py, PyArray1<u64>>, Bound<'py, PyArray1<u32>>, Bound<'py, PyArray1<f32>>) {
-        let rows = py.detach(|| self.0.find(first..last));
-        (
+    ) -> PyResult<(Bound<'py, PyArray1<u64>>, Bound<'py, PyArray1<u32>>, Bound<'py, PyArray1<f32>>)> {
+        let cancel = Cancel::default();
+        let rows = interruptible(py, &cancel, || self.0.find(first..last, &cancel))?;
+        Ok((
             PyArray1::from_iter(py, rows.starts.iter().map(|v| *v as u64)),
             rows.columns.to_pyarray(py),
             rows.values.to_pyarray(py),
-        )
+        ))
     }
 }
 

@@ -115,7 +115,7 @@ impl Density {
                 amount += part;
                 t = next;
             }
-            if next >= far {
+            if !(next < far) {
                 return Column { amount: amount as f32, reached: None };
             }
             planes.iter_mut().filter(|plane| plane.distance() <= next).for_each(Planes::pass);
@@ -165,6 +165,7 @@ fn root(value: impl Fn(f32) -> f32, slope: impl Fn(f32) -> f32, [low, high]: [f3
         } else {
             low = at
         }
+        // Where the slope is 0 this is no number, and the bracket is halved.
         let newton = at - found / slope(at);
         let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
         if (next - at).abs() <= f32::EPSILON * at.abs() {

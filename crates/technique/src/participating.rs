@@ -3,9 +3,9 @@
 //! Distances are drawn by one of a few representative extinctions, the same along a path; its weight is over the mean of the chances that
 //! all of them would have given it (the balance heuristic; Wilkie et al. 2014), so it stays bounded where extinction has colour, and
 //! distances never depend on the lanes. Where the density varies, what a ray passes of it takes the place of distance: exactly, cell by
-//! cell. Where a ray would sooner meet nothing than pass all cells, meetings are tried instead at the rate of the densest place, and each
-//! is a real one or none (Woodcock 1965; in lanes: Kutz et al. 2017); shadows multiply what tentative ones leave (ratio tracking; Novák
-//! et al. 2014).
+//! cell. Where fewer tentative meetings than cells are to be expected, meetings are tried instead at the rate of the densest place, and
+//! each is a real one or none (Woodcock 1965; in lanes: Kutz et al. 2017); shadows multiply what tentative ones leave (ratio tracking;
+//! Novák et al. 2014).
 
 use crate::sequence::Sequence;
 use glam::Vec3;
@@ -107,7 +107,7 @@ impl<const N: usize> MediumLanes<N> {
 
     /// What is left of light over a distance.
     fn transmittance(&self, origin: Vec3, direction: Vec3, length: f32, sequence: &mut Sequence) -> Lanes<N> {
-        let Some([near, far]) = self.medium.within(origin, direction, length) else {
+        let Some([near, far]) = self.within(origin, direction, length) else {
             return Lanes::splat(1.0);
         };
         if self.is_thin(direction, far - near) {
@@ -123,6 +123,11 @@ impl<const N: usize> MediumLanes<N> {
         self.extinction.map(|s| kept(s, column))
     }
 
+    /// The distances between which a ray is in the medium, if that does anything to light.
+    fn within(&self, origin: Vec3, direction: Vec3, length: f32) -> Option<[f32; 2]> {
+        self.medium.within(origin, direction, length).filter(|_| self.majorant > 0.0)
+    }
+
     /// Whether a ray would try fewer meetings than it passes cells, by what both cost.
     fn is_thin(&self, direction: Vec3, length: f32) -> bool {
         self.medium.density.is_some()
@@ -135,7 +140,8 @@ impl<const N: usize> MediumLanes<N> {
         loop {
             let [u_distance, u_kind, ..] = sequence.next4();
             passed -= (1.0 - u_distance).ln() / self.majorant;
-            if passed >= length || real(passed, u_kind) {
+            // What is no number ends it too.
+            if !(passed < length) || real(passed, u_kind) {
                 return;
             }
         }
@@ -151,10 +157,7 @@ impl<const N: usize> MediumLanes<N> {
         sequence: &mut Sequence,
     ) -> Found<N> {
         let through = Found { weight: Lanes::splat(1.0), brightness: 1.0, scattered: None };
-        let Some([near, far]) = self.medium.within(origin, direction, length) else { return through };
-        if !(self.majorant > 0.0) {
-            return through;
-        }
+        let Some([near, far]) = self.within(origin, direction, length) else { return through };
         if self.is_thin(direction, far - near) {
             return self.track(origin, direction, [near, far], draws, sequence);
         }
@@ -288,6 +291,28 @@ mod tests {
                 assert!((found - expected).abs() < 4e-3, "{found} for {expected}");
             }
         }
+    }
+
+    #[test]
+    fn a_medium_that_does_nothing_lets_all_light_through() {
+        let (origin, direction, length) = ray();
+        // The product of the coefficient and the densest place is 0 in single precision.
+        for extinction in [0.0, 1e-46] {
+            let (_, lanes) = lanes(extinction, 0.0);
+            let mut sequence = Sequence::new(1, 0, 0, 0);
+            assert_eq!(lanes.transmittance(origin, direction, length, &mut sequence).0, [1.0; 6]);
+            let found = lanes.travel(origin, direction, length, &mut Draws::new(0.5), &mut sequence);
+            assert!(found.scattered.is_none() && found.weight.0 == [1.0; 6]);
+        }
+        // A step of 0 / 0 ends the way.
+        let (_, mut lanes) = lanes(1.0, 0.0);
+        lanes.majorant = f32::NAN;
+        let mut tries = 0;
+        lanes.try_meetings(length, &mut Sequence::new(1, 0, 0, 0), |_, _| {
+            tries += 1;
+            false
+        });
+        assert_eq!(tries, 0);
     }
 
     #[test]

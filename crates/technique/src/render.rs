@@ -462,7 +462,7 @@ impl Render {
         }
     }
 
-    /// The object that a scanline technique sees in a pixel.
+    /// The object that a scanline technique sees in a pixel; with `antialiasing = coverage` one of those it sees.
     fn seen_first(&self, [x, y]: [u32; 2], sample: u64) -> Option<u32> {
         let Job { scene, settings, .. } = &self.job;
         let replicates = u64::from(settings.replicates.max(1));
