@@ -124,15 +124,8 @@ def main() -> None:
     told.add_argument("--techniques", default="path,radiosity", help="each has its share of the kills")
     told.add_argument("--record", type=Path, help="file that takes the result")
     given = told.parse_args()
-    options = [
-        "--size",
-        given.size,
-        "--samples",
-        given.samples,
-        "--layers",
-        "depth,normal,albedo",
-        "--keep-spectra",
-    ]
+    options = ["--size", given.size, "--samples", given.samples]
+    options += ["--layers", "depth,normal,albedo", "--keep-spectra"]
     techniques = given.techniques.split(",")
     lines = [f"illuminant {illuminant.__version__}, {date.today()}: renders killed at random moments"]
     for technique in techniques:

@@ -60,7 +60,7 @@ pub(crate) struct MediumLanes<const N: usize> {
     sampled: [[f32; 2]; REPRESENTATIVE],
     /// The largest extinction at the densest place.
     majorant: f32,
-    /// Behind this amount of matter nothing is left in any lane.
+    /// Behind this amount of matter nothing is left in any lane that has an extinction.
     opaque: f32,
     medium: Medium,
 }
